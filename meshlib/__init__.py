@@ -1,0 +1,16 @@
+"""Data-dependent triangulation: nodal values in, a better triangulation out."""
+from . import criteria, problems
+from .delaunay import delaunay
+from .errors import MeshError
+from .interpolant import Interpolant
+from .mesh import Mesh
+from .movement import smoothed
+from .quality import quality
+from .refinement import refined
+from .swapping import swapped
+
+__version__ = "0.1.0"
+DISTRIBUTION = "meshlib"  # replaced by the packaging name
+
+__all__ = ["Interpolant", "Mesh", "MeshError", "criteria", "delaunay", "problems",
+           "quality", "refined", "smoothed", "swapped"]

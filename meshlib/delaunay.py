@@ -1,0 +1,148 @@
+"""Delaunay meshes, the same on every platform (section 2.3.2)."""
+import numpy as np
+
+from . import checks
+from .errors import MeshError
+from .mesh import Mesh
+from .predicates import incircle, orientation
+from .topology import HEADS, TAILS
+
+
+def delaunay(nodes):
+    """The Delaunay mesh of a set of nodes.
+
+    Among cocircular nodes, where several meshes are Delaunay, the diagonals from
+    the node with the smallest number are taken, so that the result depends on
+    nothing but the nodes.
+
+    Parameters
+    ----------
+    nodes : (N, 2) array_like of float
+        Distinct, not all collinear.
+
+    Returns
+    -------
+    Mesh
+        A conforming mesh of the convex hull of the nodes.
+
+    Raises
+    ------
+    MeshError
+        Names coinciding nodes, collinear nodes, and coordinates that are not finite.
+
+    Notes
+    -----
+    Qhull finds the mesh in floating point [barber1996]_; exact in-circle tests then
+    swap what it decided by rounding.  The result is optimal for the max-min angle
+    criterion [sibson1978]_.
+
+    References
+    ----------
+    .. [barber1996] C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The Quickhull algorithm
+       for convex hulls, ACM Trans. Math. Softw. 22 (1996).
+    .. [sibson1978] R. Sibson, Locally equiangular triangulations, Comput. J. 21 (1978).
+
+    Examples
+    --------
+    >>> delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]).elements.tolist()
+    [[0, 1, 2], [0, 2, 3]]
+    """
+    nodes = checks.node_array(nodes)
+    checks.distinct_nodes(nodes)
+    _refuse_collinear(nodes)
+    elements = _flipped_to_delaunay(nodes, _counter_clockwise(nodes, _qhull(nodes)))
+    unused = np.setdiff1d(np.arange(len(nodes)), elements)
+    if unused.size:
+        raise MeshError("unused node", f"node {unused[0]} is too close to others to be meshed; "
+                        "remove it or move it", unused)
+    return Mesh._trusted(nodes, _sorted(elements))
+
+
+def _refuse_collinear(nodes):
+    far = np.abs(nodes - nodes[0]).max(axis=1).argmax()
+    if not orientation(nodes[0], nodes[far], nodes).any():
+        raise MeshError("collinear", f"all {len(nodes)} nodes lie on one line; "
+                        "add a node off the line")
+
+
+def _qhull(nodes):
+    from scipy.spatial import Delaunay, QhullError
+    centred = nodes - nodes.mean(axis=0)  # coordinates far from 0 cost digits
+    try:
+        return Delaunay(centred / np.abs(centred).max()).simplices
+    except QhullError as error:
+        raise MeshError("collinear", "the nodes are too nearly on one line to be meshed; "
+                        "scale the flat direction up first") from error
+
+
+def _counter_clockwise(nodes, elements):
+    """Elements turned counter-clockwise, those without area left out."""
+    turns = orientation(*np.moveaxis(nodes[elements], 1, 0))
+    elements[turns < 0] = elements[turns < 0][:, [0, 2, 1]]
+    return elements[turns != 0].astype(np.int32)
+
+
+def _flipped_to_delaunay(nodes, elements):
+    r"""Swap every diagonal that is not Delaunay, many at once, until none is left.
+
+    ::
+
+            c                 c
+           /|\               / \
+          / | \             / t \
+         a t|s d    --->   a-----d      t = (a, b, c) -> (a, d, c)
+          \ | /             \ s /       s = (d, c, b) -> (d, a, b)
+           \|/               \ /
+            b                 b
+    """
+    mesh = Mesh(nodes, elements)
+    edges = np.flatnonzero(~mesh.boundary)
+    while edges.size:
+        quads, pairs = _quadrilaterals(mesh, edges)
+        wrong = _is_worse(nodes, *quads.T)
+        if not wrong.any():
+            break
+        quads, pairs = _independent(quads[wrong], pairs[wrong], mesh.n_elements)
+        a, b, c, d = quads.T
+        elements = mesh.elements.copy()
+        elements[pairs[:, 0]] = np.column_stack([a, d, c])
+        elements[pairs[:, 1]] = np.column_stack([d, a, b])
+        mesh = Mesh(nodes, elements)
+        changed = np.zeros(mesh.n_elements, dtype=bool)
+        changed[pairs] = True
+        edges = np.flatnonzero(~mesh.boundary & changed[mesh.edge_elements].any(axis=1))
+    return mesh.elements
+
+
+def _quadrilaterals(mesh, edges):
+    """Nodes (a, b, c, d) around each interior edge b-c, and its elements (a,b,c), (d,c,b)."""
+    pairs = mesh.edge_elements[edges]
+    t, s = pairs.T
+    k = (mesh.element_edges[t] == edges[:, None]).argmax(axis=1)
+    m = (mesh.element_edges[s] == edges[:, None]).argmax(axis=1)
+    a, d = mesh.elements[t, k], mesh.elements[s, m]
+    b, c = mesh.elements[t, np.take(TAILS, k)], mesh.elements[t, np.take(HEADS, k)]
+    return np.column_stack([a, b, c, d]), pairs
+
+
+def _is_worse(nodes, a, b, c, d):
+    """Whether b-c is not Delaunay, or tied while a-d has the smallest node number."""
+    side = incircle(nodes[a], nodes[b], nodes[c], nodes[d])
+    tied = (side == 0) & (np.minimum(a, d) < np.minimum(b, c))
+    return (side > 0) | tied
+
+
+def _independent(quads, pairs, n_elements):
+    """Quadrilaterals that share no element: each is the first at both its elements."""
+    rank = np.arange(len(pairs))
+    first = np.full(n_elements, len(pairs))
+    np.minimum.at(first, pairs, rank[:, None])
+    free = (first[pairs] == rank[:, None]).all(axis=1)
+    return quads[free], pairs[free]
+
+
+def _sorted(elements):
+    """Elements with their smallest node first, in lexicographic order."""
+    first = elements.argmin(axis=1)[:, None]
+    turned = np.take_along_axis(elements, (first + np.arange(3)) % 3, axis=1)
+    return turned[np.lexsort(turned.T[::-1])]

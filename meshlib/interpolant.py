@@ -1,0 +1,166 @@
+"""The continuous piecewise linear interpolant u_h of nodal values (chapter 2)."""
+from functools import cached_property
+
+import numpy as np
+
+from . import checks, quadrature
+from .errors import MeshError
+from .location import located
+
+DEFAULT_DEGREE = 8
+
+
+class Interpolant:
+    """The function that is linear on each element and equals u at the nodes.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    values : (N,) array_like of float, or callable
+        Values of u at the nodes, or a vectorised function u(x, y).
+
+    Raises
+    ------
+    MeshError
+        If a value is missing or not finite.
+
+    Examples
+    --------
+    >>> from meshlib import delaunay
+    >>> mesh = delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> u_h = Interpolant(mesh, lambda x, y: 1 + 2 * x - y)
+    >>> u_h.gradients.tolist()
+    [[2.0, -1.0], [2.0, -1.0]]
+    >>> float(u_h(0.5, 0.25))
+    1.75
+    """
+
+    def __init__(self, mesh, values):
+        self.mesh = mesh._checked()
+        self.values = checks.nodal_values(mesh, values)
+        self.values.flags.writeable = False
+
+    @cached_property
+    def gradients(self):
+        """(T, 2) float64: the constants a, b of the plane a x + b y + c of each element."""
+        return gradients(self.mesh.corners, self.values[self.mesh.elements])
+
+    def __call__(self, x, y):
+        """Values at points, NaN outside the domain.
+
+        Parameters
+        ----------
+        x, y : array_like of float
+            Coordinates, broadcast against each other.
+
+        Returns
+        -------
+        ndarray of float64
+            Of the common shape of x and y.
+        """
+        x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+        points = np.column_stack([x.ravel(), y.ravel()])
+        element = located(self.mesh, points)
+        first = self.mesh.elements[element, 0]
+        away = points - self.mesh.nodes[first]
+        values = self.values[first] + (self.gradients[element] * away).sum(axis=1)
+        return np.where(element < 0, np.nan, values).reshape(x.shape)
+
+    def on_grid(self, nx=101, ny=None):
+        """Values on a regular grid over the bounding box of the mesh.
+
+        Parameters
+        ----------
+        nx, ny : int
+            Number of points along x and y; ``ny`` is ``nx`` if left out.
+
+        Returns
+        -------
+        x : (nx,) ndarray, y : (ny,) ndarray, u : (ny, nx) ndarray
+            NaN outside the domain.
+        """
+        low, high = self.mesh.nodes.min(axis=0), self.mesh.nodes.max(axis=0)
+        x = np.linspace(low[0], high[0], nx)
+        y = np.linspace(low[1], high[1], nx if ny is None else ny)
+        return x, y, self(x[None, :], y[:, None])
+
+    def l2_error(self, function, rule="trapezium", points=101, degree=DEFAULT_DEGREE):
+        """The L2 norm of u - u_h over the domain (section 4.5.1).
+
+        Parameters
+        ----------
+        function : callable
+            Vectorised u(x, y).
+        rule : {"trapezium", "exact"}
+            ``"trapezium"`` is the rule of the thesis on a grid over the bounding
+            box, for rectangular domains; ``"exact"`` integrates on each element.
+        points : int
+            Number of grid points in each direction for ``"trapezium"``.
+        degree : int
+            Polynomial degree of (u - u_h)^2 that ``"exact"`` integrates exactly.
+
+        Returns
+        -------
+        float
+
+        Raises
+        ------
+        MeshError
+            If the rule is unknown, or the domain does not fill its bounding box.
+
+        Examples
+        --------
+        >>> from meshlib import problems
+        >>> u = problems.functions["SR1"]
+        >>> round(Interpolant(problems.mesh("81"), u).l2_error(u), 6)
+        0.004325
+        """
+        checks.choice(rule, ("trapezium", "exact"), "rule")
+        if rule == "exact":
+            return float(np.sqrt(self.squared_errors(function, degree).sum()))
+        x, y, error = self.error_on_grid(function, points)
+        if np.isnan(error).any():
+            raise MeshError("domain", "the trapezium rule needs a rectangular domain; "
+                            'use rule="exact"')
+        return float(np.sqrt(np.trapezoid(np.trapezoid(error ** 2, x, axis=1), y)))
+
+    def error_on_grid(self, function, points=101):
+        """u - u_h on a regular grid: x (points,), y (points,), error (points, points)."""
+        x, y, u_h = self.on_grid(points)
+        return x, y, function(x[None, :], y[:, None]) - u_h
+
+    def squared_errors(self, function, degree=DEFAULT_DEGREE):
+        """(T,) float64: the integral of (u - u_h)^2 over each element, by quadrature."""
+        return squared_errors(self.mesh.corners, self.values[self.mesh.elements], function, degree)
+
+
+def gradients(corners, values):
+    """Gradients of planes through three points in space.
+
+    Parameters
+    ----------
+    corners : (T, 3, 2) ndarray of float
+    values : (T, 3) ndarray of float
+
+    Returns
+    -------
+    (T, 2) ndarray of float64
+
+    Examples
+    --------
+    >>> gradients(np.array([[[0., 0.], [1., 0.], [0., 1.]]]), np.array([[0., 2., 3.]])).tolist()
+    [[2.0, 3.0]]
+    """
+    e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    du, dv = values[:, 1] - values[:, 0], values[:, 2] - values[:, 0]
+    twice_area = e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]
+    return np.column_stack([du * f[:, 1] - dv * e[:, 1], dv * e[:, 0] - du * f[:, 0]]) / twice_area[:, None]
+
+
+def squared_errors(corners, values, function, degree):
+    """Integral of (u - u_h)^2 over each element with the given corners and values."""
+    points, barycentric, weights = quadrature.points_in(corners, degree)
+    error = function(points[..., 0], points[..., 1]) - values @ barycentric.T
+    e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    areas = np.abs(e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]) / 2
+    return areas * (error ** 2 @ weights)

@@ -1,0 +1,1 @@
+"""The hot loops: one source, compiled by numba where it is installed."""

@@ -1,0 +1,39 @@
+"""The one switch between numba and plain Python.
+
+The environment variable ``MESHLIB_BACKEND`` chooses: ``numba``, ``python``, or
+``auto`` (numba where it is installed).  Kernels are written once, with flat arrays
+and scalars: numba compiles them for NumPy arrays, plain Python runs them on lists,
+which it indexes several times faster than arrays.
+"""
+import os
+
+from ..checks import choice
+from ..errors import missing_extra
+
+BACKENDS = ("auto", "numba", "python")
+
+
+def _chosen():
+    wanted = choice(os.environ.get("MESHLIB_BACKEND", "auto"), BACKENDS, "MESHLIB_BACKEND")
+    if wanted == "python":
+        return "python", None
+    try:
+        import numba
+    except ImportError:
+        if wanted == "numba":
+            raise missing_extra("numba", "fast") from None
+        return "python", None
+    return "numba", numba
+
+
+NAME, _numba = _chosen()
+
+
+def compiled(function):
+    """The function compiled by numba, or as it is."""
+    return _numba.njit(cache=True)(function) if _numba else function
+
+
+def flat(array):
+    """A private, flat working copy: an array for numba, a list for plain Python."""
+    return array.ravel().copy() if _numba else array.ravel().tolist()

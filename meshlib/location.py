@@ -1,0 +1,113 @@
+"""Which element a point lies in, by a grid of buckets over the bounding box."""
+import numpy as np
+
+INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
+PAIRS_AT_ONCE = 2_000_000
+
+
+def located(mesh, points):
+    """The element that contains each point.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    points : (m, 2) ndarray of float
+
+    Returns
+    -------
+    (m,) ndarray of int32
+        Element numbers, -1 outside the domain.  On an edge or a node the element
+        with the largest smallest barycentric coordinate is taken, then the first.
+
+    Examples
+    --------
+    >>> from meshlib import delaunay
+    >>> mesh = delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> located(mesh, np.array([[0.9, 0.1], [0.1, 0.9], [2.0, 0.0]])).tolist()
+    [0, 1, -1]
+    """
+    buckets = _Buckets(mesh)
+    found = np.empty(len(points), dtype=np.int32)
+    step = max(1, int(PAIRS_AT_ONCE / buckets.mean_load))
+    for start in range(0, len(points), step):
+        found[start:start + step] = buckets.search(points[start:start + step])
+    return found
+
+
+class _Buckets:
+    """Elements by the cells of a square grid that their bounding boxes touch."""
+
+    def __init__(self, mesh):
+        self.mesh = mesh
+        self.low = mesh.nodes.min(axis=0)
+        extent = np.ptp(mesh.nodes, axis=0)
+        self.size = np.sqrt(extent.prod() / mesh.n_elements)
+        self.shape = np.floor(extent / self.size).astype(np.int64) + 1
+        self._fill()
+
+    def _cell(self, points):
+        return np.floor((points - self.low) / self.size).astype(np.int64)
+
+    def _fill(self):
+        first = self._cell(self.mesh.corners.min(axis=1)).clip(0, self.shape - 1)
+        last = self._cell(self.mesh.corners.max(axis=1)).clip(0, self.shape - 1)
+        width, height = (last - first + 1).T
+        element = np.repeat(np.arange(len(first)), width * height)
+        place = _count_up(width * height)
+        row, column = np.divmod(place, width[element])
+        cell = (first[element, 1] + row) * self.shape[0] + first[element, 0] + column
+        self.elements = element[np.argsort(cell, kind="stable")]
+        load = np.bincount(cell, minlength=self.shape.prod())
+        self.starts = np.concatenate([[0], np.cumsum(load)])
+        self.mean_load = max(1.0, float((load ** 2).sum() / max(load.sum(), 1)))
+
+    def search(self, points):
+        """The best element of each point's cell, or -1."""
+        cell = self._cell(points)
+        known = ((cell >= 0) & (cell < self.shape)).all(axis=1)
+        flat = np.where(known, cell[:, 1] * self.shape[0] + cell[:, 0], 0)
+        load = np.where(known, self.starts[flat + 1] - self.starts[flat], 0)
+        point = np.repeat(np.arange(len(points)), load)
+        candidate = self.elements[self.starts[flat][point] + _count_up(load)]
+        depth = barycentric(self.mesh.corners[candidate], points[point]).min(axis=1)
+        return _deepest(point, candidate, depth, len(points))
+
+
+def barycentric(corners, points):
+    """Barycentric coordinates of one point in each element.
+
+    Parameters
+    ----------
+    corners : (m, 3, 2) ndarray of float
+    points : (m, 2) ndarray of float
+
+    Returns
+    -------
+    (m, 3) ndarray of float64
+
+    Examples
+    --------
+    >>> barycentric(np.array([[[0., 0.], [1., 0.], [0., 1.]]]), np.array([[0.25, 0.5]])).tolist()
+    [[0.25, 0.25, 0.5]]
+    """
+    a, u, v = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    p = points - a
+    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    second = (p[:, 0] * v[:, 1] - p[:, 1] * v[:, 0]) / area
+    third = (u[:, 0] * p[:, 1] - u[:, 1] * p[:, 0]) / area
+    return np.column_stack([1 - second - third, second, third])
+
+
+def _count_up(lengths):
+    """0 .. n-1 for every n in lengths, one after the other."""
+    ends = np.cumsum(lengths)
+    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - lengths, lengths)
+
+
+def _deepest(point, candidate, depth, n_points):
+    found = np.full(n_points, -1, dtype=np.int32)
+    order = np.lexsort((candidate, -depth, point))
+    best = order[np.unique(point[order], return_index=True)[1]]
+    inside = best[depth[best] >= -INSIDE]
+    found[point[inside]] = candidate[inside]
+    return found

@@ -1,0 +1,77 @@
+"""Orders on cost vectors (section 2.2): L1, L2, maximum and lexicographic."""
+import numpy as np
+
+from . import checks
+
+NORMS = (1, 2, "max", "lexicographic")
+RELATIVE, ABSOLUTE = 1e-12, 1e-11
+
+
+def checked(norm):
+    """The norm, one of 1, 2, "max" and "lexicographic"; infinity is another "max"."""
+    return "max" if norm == np.inf else checks.choice(norm, NORMS, "norm")
+
+
+def measure(costs, norm):
+    """What an order compares: the sum, the sum of squares, the maximum, or all, sorted.
+
+    The L2 norm is compared by its square, which needs no root.
+
+    Examples
+    --------
+    >>> measure(np.array([3.0, 4.0]), 2)
+    25.0
+    >>> measure(np.array([3.0, 4.0]), "lexicographic")
+    (4.0, 3.0)
+    """
+    costs = np.asarray(costs, dtype=float)
+    return {1: lambda: float(costs.sum()), 2: lambda: float((costs ** 2).sum()),
+            "max": lambda: float(costs.max(initial=0.0)),
+            "lexicographic": lambda: tuple(np.sort(costs)[::-1].tolist())}[checked(norm)]()
+
+
+def norm_of(costs, norm):
+    """The norm of a cost vector; for the lexicographic order its largest entry.
+
+    Examples
+    --------
+    >>> norm_of(np.array([3.0, 4.0]), 2), norm_of(np.array([3.0, 4.0]), 1)
+    (5.0, 7.0)
+    """
+    found = measure(costs, norm)
+    return found ** 0.5 if norm == 2 else found[0] if isinstance(found, tuple) else found
+
+
+def tolerance(norm, scale):
+    """Relative and absolute gain that a swap must exceed, for costs of this scale."""
+    absolute = ABSOLUTE * scale
+    return RELATIVE, absolute ** 2 if norm == 2 else absolute
+
+
+def is_below(new, old, relative, absolute):
+    """Whether a measure is below another by more than the tolerance.
+
+    Examples
+    --------
+    >>> is_below(1.0, 2.0, *tolerance(2, 1.0)), is_below(1.0, 1.0 + 1e-15, *tolerance(2, 1.0))
+    (True, False)
+    """
+    if not isinstance(new, tuple):
+        return new < old * (1 - relative) - absolute
+    for n, o in zip(new, old):
+        if is_below(n, o, relative, absolute):
+            return True
+        if is_below(o, n, relative, absolute):
+            return False
+    return False
+
+
+def precedes(first, second, norm, scale=0.0):
+    """Whether the first cost vector comes strictly before the second.
+
+    Examples
+    --------
+    >>> precedes([2, 1], [2, 3], "max"), precedes([2, 1], [3, 0], "lexicographic")
+    (True, True)
+    """
+    return is_below(measure(first, norm), measure(second, norm), *tolerance(norm, scale))

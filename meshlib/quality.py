@@ -1,0 +1,104 @@
+"""Geometric quality of a mesh (section 4.5.2) as the thesis's tables print it."""
+from dataclasses import dataclass
+
+import numpy as np
+
+EQUILATERAL = np.pi / 3
+MEASURES = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Three measures of each element, and their mean and maximum.
+
+    Attributes
+    ----------
+    maximum_angle : (T,) ndarray of float64
+        Largest angle of each element, in degrees.
+    skewness : (T,) ndarray of float64
+        Mean deviation of the angles from 60 degrees, in radians; 0 if equilateral.
+    aspect_ratio : (T,) ndarray of float64
+        4 sqrt(3) area / sum of squared edge lengths; 1 if equilateral, 0 if flat.
+    """
+
+    maximum_angle: np.ndarray
+    skewness: np.ndarray
+    aspect_ratio: np.ndarray
+
+    @property
+    def mean(self):
+        """Mean of each measure over the elements, by name."""
+        return {name: float(getattr(self, name).mean()) for name in MEASURES}
+
+    @property
+    def max(self):
+        """Maximum of each measure over the elements, by name."""
+        return {name: float(getattr(self, name).max()) for name in MEASURES}
+
+    def __str__(self):
+        lines = [f"{'Measure':<14} {'mean':>9} {'max':>9}"]
+        for name, title in MEASURES.items():
+            lines.append(f"{title:<14} {self.mean[name]:9.4f} {self.max[name]:9.4f}")
+        return "\n".join(lines)
+
+
+def quality(mesh):
+    """Maximum angle, skewness and aspect ratio of every element.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    Quality
+
+    Raises
+    ------
+    MeshError
+        If the mesh is not valid.
+
+    Notes
+    -----
+    Section 4.5.2 of the thesis.  With the angles in radians the skewness equals
+    2/3 max(largest - pi/3, pi/3 - smallest), and with the angles A, B, C the aspect
+    ratio equals sqrt(3) / (cot A + cot B + cot C).
+
+    Examples
+    --------
+    >>> from meshlib import delaunay
+    >>> print(quality(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])))
+    Measure             mean       max
+    Maximum angle    90.0000   90.0000
+    Skewness          0.3491    0.3491
+    Aspect ratio      0.8660    0.8660
+    """
+    mesh = mesh._checked()
+    angle = angles(mesh.corners)
+    squared_edges = ((mesh.corners - np.roll(mesh.corners, 1, axis=1)) ** 2).sum(axis=(1, 2))
+    return Quality(maximum_angle=np.degrees(angle.max(axis=1)),
+                   skewness=np.abs(angle - EQUILATERAL).mean(axis=1),
+                   aspect_ratio=4 * np.sqrt(3) * np.abs(mesh.areas) / squared_edges)
+
+
+def angles(corners):
+    """The three angles of each element, by arctan2 of cross and dot product.
+
+    Parameters
+    ----------
+    corners : (T, 3, 2) ndarray of float
+
+    Returns
+    -------
+    (T, 3) ndarray of float64
+        In radians, at the node of the same column.
+
+    Examples
+    --------
+    >>> np.degrees(angles(np.array([[[0., 0.], [1., 0.], [0., 1.]]]))).round(6).tolist()
+    [[90.0, 45.0, 45.0]]
+    """
+    u = np.roll(corners, -1, axis=1) - corners
+    v = np.roll(corners, 1, axis=1) - corners
+    cross = u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+    return np.arctan2(np.abs(cross), (u * v).sum(axis=-1))

@@ -1,0 +1,58 @@
+"""Edges and neighbours, derived from the element array alone.
+
+Half-edge 3 t + k is the side of element t opposite its node k; it runs from
+node k + 1 to node k + 2 (counted modulo 3), so the element lies to its left::
+
+            k
+           / \\
+          / t \\
+       k+1 --> k+2
+"""
+import numpy as np
+
+from .errors import MeshError
+
+TAILS, HEADS = [1, 2, 0], [2, 0, 1]
+
+
+def edge_table(elements, n_nodes):
+    """Edges in lexicographic order, and the edge opposite each node of each element."""
+    ends = np.stack([elements[:, TAILS], elements[:, HEADS]]).astype(np.int64)
+    keys = ends.min(axis=0) * n_nodes + ends.max(axis=0)
+    unique, numbers = np.unique(keys, return_inverse=True)
+    edges = np.stack(np.divmod(unique, n_nodes), axis=1).astype(np.int32)
+    return edges, numbers.reshape(elements.shape).astype(np.int32)
+
+
+def sides(elements, element_edges, n_edges):
+    """The two elements of each edge, left of (smaller -> larger node) first.
+
+    A boundary edge has its only element first and -1 second.
+    """
+    rightward = (elements[:, TAILS] > elements[:, HEADS]).astype(np.int64)
+    place = 2 * element_edges.astype(np.int64) + rightward
+    _refuse_shared_half_edges(elements, place)
+    table = np.full(2 * n_edges, -1, dtype=np.int32)
+    table[place] = np.arange(len(elements), dtype=np.int32)[:, None]
+    table = table.reshape(-1, 2)
+    lonely = table[:, 0] < 0
+    table[lonely] = table[lonely, ::-1]
+    return table
+
+
+def neighbours(element_edges, edge_elements):
+    """The element across the edge opposite node k of element t, or -1."""
+    pairs = edge_elements[element_edges]
+    own = np.arange(len(element_edges), dtype=np.int32)[:, None]
+    return np.where(pairs[..., 0] == own, pairs[..., 1], pairs[..., 0])
+
+
+def _refuse_shared_half_edges(elements, place):
+    order = np.argsort(place, axis=None, kind="stable")
+    again = np.flatnonzero(np.diff(place.ravel()[order]) == 0)
+    if again.size:
+        first, second = order[again[0]] // 3, order[again[0] + 1] // 3
+        k = order[again[0]] % 3
+        a, b = sorted(int(n) for n in (elements[first, TAILS[k]], elements[first, HEADS[k]]))
+        raise MeshError("overlap", f"elements {first} and {second} lie on the same side of edge "
+                        f"({a}, {b}); remove one or reverse its nodes", (first, second))
