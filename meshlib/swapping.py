@@ -57,7 +57,8 @@ class Limits:
     area: float = 0.0
 
 
-def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, min_area=None):
+def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, min_area=None,
+            tolerance=None):
     """The mesh after the local optimisation procedure (Algorithm 3.1.4).
 
     Edges are inspected in order, sweep by sweep; an edge whose quadrilateral is
@@ -81,6 +82,9 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
         Swaps that create an angle below this many degrees are refused.
     min_area : float, optional
         Swaps that create an element below this area are refused.
+    tolerance : float, optional
+        Gain of the local cost, as the norm compares it (squared for L2), below which
+        no swap is made; see the notes for the default.
 
     Returns
     -------
@@ -101,7 +105,7 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     lexicographic order.  So no mesh occurs twice, and a set of nodes has finitely
     many meshes.  In floating point this needs a gain that rounding cannot feign: a
     swap is made only if ``new < old (1 - 1e-12) - a``, where ``a`` is 1e-11 of the
-    size of a typical cost of such data (squared for L2).
+    size of a typical cost of such data (squared for L2), or the tolerance given.
 
     Built-in edge and angle criteria run compiled where numba is installed; the
     lexicographic order and one's own criteria run in Python.
@@ -119,7 +123,7 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     criterion, norm = criteria.get(criterion), norms.checked(norm)
     order = checks.permutation(order, mesh.n_edges)
     limits = _limits(min_angle, min_area)
-    tolerance = norms.tolerance(norm, criterion.scale(mesh, values))
+    tolerance = _tolerance(tolerance, norm, criterion.scale(mesh, values))
     procedure = _compiled if criterion.code >= 0 and norm in _NORM_CODES else _plain
 
     def run(trace):
@@ -137,6 +141,15 @@ def _limits(min_angle, min_area):
     if not 0 <= area < np.inf:
         raise MeshError("range", f"min_area is {min_area}; give a finite area of at least 0")
     return Limits(np.radians(angle), area)
+
+
+def _tolerance(tolerance, norm, scale):
+    relative, absolute = norms.tolerance(norm, scale)
+    if tolerance is None:
+        return relative, absolute
+    if not 0 <= tolerance < np.inf:
+        raise MeshError("range", f"tolerance is {tolerance}; give a finite gain of at least 0")
+    return relative, float(tolerance)
 
 
 _NORM_CODES = {1: 1, 2: 2, "max": 0}
