@@ -5,7 +5,7 @@ from . import checks
 from .errors import MeshError
 from .mesh import Mesh
 from .predicates import incircle, orientation
-from .topology import HEADS, TAILS
+from .topology import HEADS, TAILS, from_smallest
 
 
 def delaunay(nodes):
@@ -143,6 +143,5 @@ def _independent(quads, pairs, n_elements):
 
 def _sorted(elements):
     """Elements with their smallest node first, in lexicographic order."""
-    first = elements.argmin(axis=1)[:, None]
-    turned = np.take_along_axis(elements, (first + np.arange(3)) % 3, axis=1)
+    turned = from_smallest(elements)
     return turned[np.lexsort(turned.T[::-1])]

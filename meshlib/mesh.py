@@ -75,8 +75,7 @@ class Mesh:
 
     @cached_property
     def _canonical_elements(self):
-        first = self.elements.argmin(axis=1)[:, None]
-        turned = np.take_along_axis(self.elements, (first + np.arange(3)) % 3, axis=1)
+        turned = topology.from_smallest(self.elements)
         return turned[np.lexsort(turned.T[::-1])]
 
     # -- counts ---------------------------------------------------------------

@@ -12,10 +12,12 @@ def checked(norm):
     return "max" if norm == np.inf else checks.choice(norm, NORMS, "norm")
 
 
-def measure(costs, norm):
+def measure(costs, norm, grain=0.0):
     """What an order compares: the sum, the sum of squares, the maximum, or all, sorted.
 
-    The L2 norm is compared by its square, which needs no root.
+    The L2 norm is compared by its square, which needs no root.  For the
+    lexicographic order costs are rounded to multiples of ``grain``, which makes ties
+    of what differs by rounding noise and keeps the order transitive.
 
     Examples
     --------
@@ -25,9 +27,11 @@ def measure(costs, norm):
     (4.0, 3.0)
     """
     costs = np.asarray(costs, dtype=float)
+    if checked(norm) == "lexicographic":
+        costs = np.rint(costs / grain) * grain if grain > 0 else costs
+        return tuple(np.sort(costs)[::-1].tolist())
     return {1: lambda: float(costs.sum()), 2: lambda: float((costs ** 2).sum()),
-            "max": lambda: float(costs.max(initial=0.0)),
-            "lexicographic": lambda: tuple(np.sort(costs)[::-1].tolist())}[checked(norm)]()
+            "max": lambda: float(costs.max(initial=0.0))}[checked(norm)]()
 
 
 def norm_of(costs, norm):
@@ -56,14 +60,9 @@ def is_below(new, old, relative, absolute):
     >>> is_below(1.0, 2.0, *tolerance(2, 1.0)), is_below(1.0, 1.0 + 1e-15, *tolerance(2, 1.0))
     (True, False)
     """
-    if not isinstance(new, tuple):
-        return new < old * (1 - relative) - absolute
-    for n, o in zip(new, old):
-        if is_below(n, o, relative, absolute):
-            return True
-        if is_below(o, n, relative, absolute):
-            return False
-    return False
+    if isinstance(new, tuple):
+        return new < old
+    return new < old * (1 - relative) - absolute
 
 
 def precedes(first, second, norm, scale=0.0):
@@ -74,4 +73,6 @@ def precedes(first, second, norm, scale=0.0):
     >>> precedes([2, 1], [2, 3], "max"), precedes([2, 1], [3, 0], "lexicographic")
     (True, True)
     """
-    return is_below(measure(first, norm), measure(second, norm), *tolerance(norm, scale))
+    relative, absolute = tolerance(norm, scale)
+    first, second = (measure(costs, norm, absolute) for costs in (first, second))
+    return is_below(first, second, relative, absolute)

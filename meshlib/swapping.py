@@ -8,6 +8,7 @@ from . import checks, criteria, norms
 from .errors import MeshError
 from .interpolant import gradients
 from .mesh import Mesh
+from .topology import from_smallest
 
 TRACE = np.dtype([("sweep", np.int32), ("edge", np.int32), ("a", np.int32), ("b", np.int32),
                   ("c", np.int32), ("d", np.int32), ("accepted", bool),
@@ -180,9 +181,10 @@ def _state(mesh, values, flat):
     twin = np.full(len(numbers), -1, dtype=np.int64)
     others = np.flatnonzero(half[slot] != numbers)
     twin[others], twin[half[slot[others]]] = half[slot[others]], others
-    g = gradients(mesh.corners, values[mesh.elements])
+    turned = Mesh._trusted(mesh.nodes, from_smallest(mesh.elements))  # as the kernel computes
+    g = gradients(turned.corners, values[turned.elements])
     return tuple(flat(v) for v in (mesh.elements.astype(np.int64), twin, slot, half,
-                                   g[:, 0], g[:, 1], 2 * mesh.areas))
+                                   g[:, 0], g[:, 1], 2 * turned.areas))
 
 
 def _rows(sweep, log, costs, count):

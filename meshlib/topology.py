@@ -47,6 +47,12 @@ def neighbours(element_edges, edge_elements):
     return np.where(pairs[..., 0] == own, pairs[..., 1], pairs[..., 0])
 
 
+def from_smallest(elements):
+    """Elements turned so that the smallest node number comes first."""
+    first = elements.argmin(axis=1)[:, None]
+    return np.take_along_axis(elements, (first + np.arange(3)) % 3, axis=1)
+
+
 def _refuse_shared_half_edges(elements, place):
     order = np.argsort(place, axis=None, kind="stable")
     again = np.flatnonzero(np.diff(place.ravel()[order]) == 0)

@@ -35,8 +35,23 @@ def before(h):
 
 
 @compiled
-def turn(x, y, a, b, c):
-    """Twice the signed area of a, b, c, or 0 if it is within rounding of flat."""
+def from_smallest(a, b, c):
+    """The element turned so that its smallest node number comes first.
+
+    What is computed from it then depends on the element alone, to the last bit, and
+    not on the swaps that led to it; the proof of termination rests on that.
+    """
+    if b < a and b < c:
+        return b, c, a
+    if c < a and c < b:
+        return c, a, b
+    return a, b, c
+
+
+@compiled
+def turn(x, y, corners):
+    """Twice the signed area of an element, or 0 if it is within rounding of flat."""
+    a, b, c = corners
     left = (x[b] - x[a]) * (y[c] - y[a])
     right = (x[c] - x[a]) * (y[b] - y[a])
     area = left - right
@@ -44,8 +59,9 @@ def turn(x, y, a, b, c):
 
 
 @compiled
-def plane(x, y, u, a, b, c, area):
-    """Gradient of the plane through three nodes, by differences from the first."""
+def plane(x, y, u, corners, area):
+    """Gradient of the plane over an element, by differences from its first node."""
+    a, b, c = corners
     bx, by, bu = x[b] - x[a], y[b] - y[a], u[b] - u[a]
     cx, cy, cu = x[c] - x[a], y[c] - y[a], u[c] - u[a]
     return (bu * cy - cu * by) / area, (bx * cu - cx * bu) / area
@@ -92,8 +108,9 @@ def corner(x, y, a, b, c):
 
 
 @compiled
-def element_cost(code, x, y, a, b, c):
+def element_cost(code, x, y, corners):
     """How far the smallest or largest angle of an element is from 60 degrees."""
+    a, b, c = corners
     p, q, r = corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)
     return EQUILATERAL - min(p, q, r) if code == SMALLEST_ANGLE else max(p, q, r) - EQUILATERAL
 
@@ -126,8 +143,9 @@ def five_edges(code, norm, x, y, p, q, r, s, g, A, h, B, beyond, gx, gy, area):
 
 
 @compiled
-def too_sharp(x, y, a, b, c, min_angle):
+def too_sharp(x, y, corners, min_angle):
     """Whether an element has an angle below the limit (section 6.1)."""
+    a, b, c = corners
     return min(corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)) < min_angle
 
 
@@ -165,19 +183,20 @@ def flip(h, j, c, d, element, twin, slot, half):
 
 
 @compiled
-def refused(x, y, a, b, c, area, min_angle, min_area):
+def refused(x, y, corners, area, min_angle, min_area):
     """Whether an element would be flat or break a limit of section 6.1."""
     if area <= 0 or area < min_area:
         return True
-    return min_angle > 0 and too_sharp(x, y, a, b, c, min_angle)
+    return min_angle > 0 and too_sharp(x, y, corners, min_angle)
 
 
 @compiled
-def angle_costs(code, norm, x, y, a, b, c, d):
+def angle_costs(code, norm, x, y, a, b, c, d, cad, dbc):
     """Cost of the elements at a-b and of those at c-d instead."""
-    old = combined(norm, element_cost(code, x, y, c, a, b), element_cost(code, x, y, d, b, a), 0.0, 0.0, 0.0)
-    new = combined(norm, element_cost(code, x, y, c, a, d), element_cost(code, x, y, d, b, c), 0.0, 0.0, 0.0)
-    return old, new
+    p = element_cost(code, x, y, from_smallest(c, a, b))
+    q = element_cost(code, x, y, from_smallest(d, b, a))
+    r, s = element_cost(code, x, y, cad), element_cost(code, x, y, dbc)
+    return combined(norm, p, q, 0.0, 0.0, 0.0), combined(norm, r, s, 0.0, 0.0, 0.0)
 
 
 @compiled
@@ -217,12 +236,13 @@ def sweep(order, code, norm, relative, absolute, min_angle, min_area,
         if j < 0:
             continue
         a, b, c, d = element[after(h)], element[before(h)], element[h], element[j]
-        A, B = turn(x, y, c, a, d), turn(x, y, d, b, c)
-        if refused(x, y, c, a, d, A, min_angle, min_area) or refused(x, y, d, b, c, B, min_angle, min_area):
+        cad, dbc = from_smallest(c, a, d), from_smallest(d, b, c)
+        A, B = turn(x, y, cad), turn(x, y, dbc)
+        if refused(x, y, cad, A, min_angle, min_area) or refused(x, y, dbc, B, min_angle, min_area):
             continue
-        g, k = plane(x, y, u, c, a, d, A), plane(x, y, u, d, b, c, B)
+        g, k = plane(x, y, u, cad, A), plane(x, y, u, dbc, B)
         if code >= SMALLEST_ANGLE:
-            old, new = angle_costs(code, norm, x, y, a, b, c, d)
+            old, new = angle_costs(code, norm, x, y, a, b, c, d, cad, dbc)
         else:
             old, new = jump_costs(code, norm, x, y, a, b, c, d, h, j, g, A, k, B, twin, gx, gy, area)
         accepted = new < old * (1 - relative) - absolute

@@ -27,8 +27,8 @@ def swapped(mesh, values, criterion, norm, order, limits, tolerance):
             if quad is None or _is_refused(mesh.nodes, quad, limits):
                 continue
             a, b, c, d = quad
-            old, new = local_cost(criterion.cost, points, apex, quad)
-            old, new = norms.measure(old, norm), norms.measure(new, norm)
+            old, new = (norms.measure(h, norm, tolerance[1])
+                        for h in local_cost(criterion.cost, points, apex, quad))
             accepted = norms.is_below(new, old, *tolerance)
             tried.append((sweep, e, a, b, c, d, accepted, np.max(old), np.max(new)))
             if accepted:
@@ -53,8 +53,13 @@ def _swap(apex, quad):
 
 
 def _elements(apex):
-    rows = {min((a, b, c), (b, c, a), (c, a, b)) for (a, b), c in apex.items()}
+    rows = {_from_smallest(a, b, c) for (a, b), c in apex.items()}
     return np.array(sorted(rows), dtype=np.int32)
+
+
+def _from_smallest(a, b, c):
+    """The element turned so that its smallest node number comes first."""
+    return min((a, b, c), (b, c, a), (c, a, b))
 
 
 def _is_refused(nodes, quad, limits):
@@ -74,14 +79,19 @@ def _edge_costs(cost, points, apex, quad):
     beyond = [apex.get((q, p)) for p, q in sides]
     old = [(a, b, c, d)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (a, b, b, a), beyond)]
     new = [(c, d, b, a)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (d, d, c, c), beyond)]
-    return tuple(cost(*np.moveaxis(points[[s for s in stencils if s[3] is not None]], 1, 0))
+    return tuple(cost(*np.moveaxis(points[[_canonical(*s) for s in stencils if s[3] is not None]], 1, 0))
                  for stencils in (old, new))
+
+
+def _canonical(p, q, left, right):
+    """The edge p-q from its smaller node, so that its cost does not depend on history."""
+    return (p, q, left, right) if p < q else (q, p, right, left)
 
 
 def _element_costs(cost, points, apex, quad):
     """Costs of the two elements at a-b, and of those at c-d instead."""
     a, b, c, d = quad
-    return tuple(cost(*np.moveaxis(points[pair], 1, 0))
+    return tuple(cost(*np.moveaxis(points[[_from_smallest(*t) for t in pair]], 1, 0))
                  for pair in ([(c, a, b), (d, b, a)], [(c, a, d), (d, b, c)]))
 
 
