@@ -10,7 +10,7 @@ from .refinement import refined
 from .swapping import swapped
 
 __version__ = "0.1.0"
-DISTRIBUTION = "meshlib"  # replaced by the packaging name
+DISTRIBUTION = "data-dependent-mesh"
 
 __all__ = ["Interpolant", "Mesh", "MeshError", "criteria", "delaunay", "problems",
            "quality", "refined", "smoothed", "swapped"]

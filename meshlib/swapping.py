@@ -104,9 +104,15 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     of all costs, or of their squares, therefore falls at every swap; with ``"max"``
     and ``"lexicographic"`` the vector of all costs, sorted downwards, falls in
     lexicographic order.  So no mesh occurs twice, and a set of nodes has finitely
-    many meshes.  In floating point this needs a gain that rounding cannot feign: a
-    swap is made only if ``new < old (1 - 1e-12) - a``, where ``a`` is 1e-11 of the
-    size of a typical cost of such data (squared for L2), or the tolerance given.
+    many meshes.
+
+    In floating point the same holds, for two reasons.  The cost of an edge is computed
+    from its elements alone, in an order that does not depend on the swaps before, so
+    that it is the same number whenever these elements occur.  And a swap is made only
+    if ``new < old (1 - 1e-12) - a``: by more than the rounding of a sum of five.  The
+    absolute part ``a``, 1e-11 of the size of a typical cost of such data (squared for
+    L2) or the tolerance given, keeps an edge where old and new cost differ by noise,
+    so that the mesh is the same on every machine.
 
     Built-in edge and angle criteria run compiled where numba is installed; the
     lexicographic order and one's own criteria run in Python.
