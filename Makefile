@@ -1,0 +1,46 @@
+# Everything runs in .venv, which is made on first use from requirements.txt.
+PYTHON ?= python3
+WORKERS ?= 2
+
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+
+# The debugger inside Jupyter kernels warns about frozen modules; nobody debugs here.
+export PYDEVD_DISABLE_FILE_VALIDATION := 1
+
+.DEFAULT_GOAL := help
+.PHONY: help book test notebooks lock clean
+
+help: ## Show this list
+	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
+
+# --all: changes in meshlib/ do not touch the pages, so every page is read and run again.
+book: $(READY) ## Run the notebooks and build _build/html/index.html
+	$(BIN)/jupyter-book build . --all -W -n --keep-going
+
+# First the reference backend, then everything; loadfile keeps a notebook on one kernel.
+test: $(READY) ## Unit tests (both backends), doctests, notebooks against their stored output
+	MESHLIB_BACKEND=python $(BIN)/python -m pytest tests -q -n $(WORKERS) --dist loadfile
+	$(BIN)/python -m pytest tests meshlib notebooks --doctest-modules \
+	    --nbval --nbval-current-env -n $(WORKERS) --dist loadfile
+
+notebooks: $(READY) ## Run the notebooks in place and strip what changes from run to run
+	$(BIN)/python book/execute.py notebooks/*.ipynb
+
+lock: ## Pin the newest versions that pyproject.toml allows in requirements.txt
+	$(PYTHON) -m venv $(VENV)-lock
+	$(VENV)-lock/bin/python -m pip install --quiet uv
+	$(VENV)-lock/bin/uv pip compile pyproject.toml --all-extras --upgrade --quiet \
+	    --universal --python-version 3.11 --no-annotate --no-header -o requirements.txt
+	echo '-e .' >> requirements.txt
+
+clean: ## Remove everything that is not in the repository, the environment too
+	rm -rf $(VENV) $(VENV)-lock _build build *.egg-info .pytest_cache .hypothesis .ruff_cache
+	find . -name __pycache__ -prune -exec rm -rf {} +
+
+$(READY): requirements.txt pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed: make PYTHON=python3.12 ..." if sys.version_info < (3, 11) else 0)'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
+	touch $@
