@@ -6,6 +6,7 @@ import numpy as np
 from .errors import MeshError
 
 MINIMUM_NODES = 3
+LARGEST_NUMBER = np.iinfo(np.int32).max
 
 
 def node_array(nodes):
@@ -25,15 +26,51 @@ def node_array(nodes):
 
 def element_array(elements):
     """Elements as a (T, 3) int32 array, or a MeshError."""
-    elements = np.asarray(elements)
-    if elements.ndim != 2 or elements.shape[1] != 3:
-        raise MeshError("shape", f"elements have shape {elements.shape}; "
-                        "give a (T, 3) array of node numbers")
+    elements = _numbers(elements, "elements", 3, "a (T, 3) array of node numbers")
     if not len(elements):
         raise MeshError("shape", "there are no elements; give at least one")
-    if elements.dtype.kind not in "iu":
-        raise MeshError("dtype", f"elements have dtype {elements.dtype}; give integer node numbers")
+    large = np.argwhere(elements > LARGEST_NUMBER)
+    if large.size:
+        t, k = large[0]
+        raise MeshError("index range", f"element {t} names node {elements[t, k]}; "
+                        f"the largest number is {LARGEST_NUMBER}", (t,))
     return elements.astype(np.int32)
+
+
+def green_array(green):
+    """Pairs of element numbers as a (G, 2) int32 array, none by default, or a MeshError."""
+    if green is None:
+        return np.empty((0, 2), dtype=np.int32)
+    return _numbers(green, "green pairs", 2, "a (G, 2) array of element numbers").astype(np.int32)
+
+
+def node_pairs(pairs):
+    """Pairs of node numbers as an (m, 2) int64 array, the smaller first, or a MeshError."""
+    pairs = _numbers(pairs, "pairs", 2, "an (m, 2) array of node numbers")
+    return np.sort(pairs, axis=1).astype(np.int64)
+
+
+def each_edge_once(numbers, edges):
+    """Raise a MeshError that names an edge given twice or not at all."""
+    missing = np.setdiff1d(np.arange(len(edges)), numbers)
+    order = np.argsort(numbers, kind="stable")
+    again = np.flatnonzero(np.diff(numbers[order]) == 0)
+    if again.size:
+        (i, j), first, second = edges[numbers[order[again[0]]]], order[again[0]], order[again[0] + 1]
+        raise MeshError("edge", f"nodes {i} and {j} are given twice, in rows {first} and {second}; "
+                        "keep one of them", (i, j))
+    if missing.size:
+        i, j = edges[missing[0]]
+        raise MeshError("edge", f"nodes {i} and {j} are joined by an edge that is not given; add it", (i, j))
+
+
+def markers(what, given, derived):
+    """Raise a MeshError that names a marker which disagrees with the mesh."""
+    wrong = np.flatnonzero((given != 0) != derived)
+    if wrong.size:
+        place = "on the boundary" if derived[wrong[0]] else "inside"
+        raise MeshError("marker", f"{what} {wrong[0]} is marked {given[wrong[0]]:g} but lies {place}; "
+                        "mark 1 on the boundary and 0 inside", wrong)
 
 
 def distinct_nodes(nodes):
@@ -93,11 +130,25 @@ def permutation(order, size):
     return order.astype(np.int64)
 
 
-def _numeric(array, what):
+def _regular(array, what):
     try:
-        array = np.asarray(array)
+        return np.asarray(array)
     except ValueError:
         raise MeshError("shape", f"{what} have rows of different lengths; give a regular array") from None
+
+
+def _numbers(array, what, columns, shape):
+    """A table of whole numbers with that many columns."""
+    array = _regular(array, what)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise MeshError("shape", f"{what} have shape {array.shape}; give {shape}")
+    if array.dtype.kind not in "iu" and array.size:
+        raise MeshError("dtype", f"{what} have dtype {array.dtype}; give whole numbers")
+    return array
+
+
+def _numeric(array, what):
+    array = _regular(array, what)
     if array.dtype.kind not in "fiu":
         raise MeshError("dtype", f"{what} have dtype {array.dtype}; give real numbers")
     return array.astype(np.float64)

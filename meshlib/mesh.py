@@ -1,11 +1,22 @@
 """The mesh: two arrays, from which everything else is derived."""
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, wraps
 
 import numpy as np
 
 from . import checks, topology
 from .errors import MeshError
+
+
+def _derived(method):
+    """A property computed once, whose arrays are read-only."""
+    @wraps(method)
+    def computed(self):
+        found = method(self)
+        for array in found if isinstance(found, tuple) else (found,):
+            array.flags.writeable = False
+        return found
+    return cached_property(computed)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -48,15 +59,17 @@ class Mesh:
     green: np.ndarray = field(default=None)
 
     def __post_init__(self):
-        green = np.empty((0, 2)) if self.green is None else self.green
         self._store("nodes", checks.node_array(self.nodes))
         self._store("elements", checks.element_array(self.elements))
-        self._store("green", np.array(green, dtype=np.int32).reshape(-1, 2))
+        self._store("green", checks.green_array(self.green))
 
     def _store(self, name, array):
         array = np.array(array, order="C")
         array.flags.writeable = False
         object.__setattr__(self, name, array)
+
+    def __reduce__(self):
+        return Mesh, (self.nodes, self.elements, self.green)  # a copy is frozen too
 
     def __repr__(self):
         return f"Mesh({self.n_nodes} nodes, {self.n_edges} edges, {self.n_elements} elements)"
@@ -73,7 +86,7 @@ class Mesh:
         return (np.array_equal(self.nodes, other.nodes)
                 and np.array_equal(self._canonical_elements, other._canonical_elements))
 
-    @cached_property
+    @_derived
     def _canonical_elements(self):
         turned = topology.from_smallest(self.elements)
         return turned[np.lexsort(turned.T[::-1])]
@@ -102,7 +115,7 @@ class Mesh:
 
     # -- derived arrays ---------------------------------------------------------
 
-    @cached_property
+    @_derived
     def _edge_table(self):
         self._refuse_bad_index()
         return topology.edge_table(self.elements, self.n_nodes)
@@ -117,35 +130,35 @@ class Mesh:
         """(T, 3) int32: the edge opposite node k of element t."""
         return self._edge_table[1]
 
-    @cached_property
+    @_derived
     def edge_elements(self):
         """(E, 2) int32: the two elements of an edge; a boundary edge has -1 second."""
         return topology.sides(self.elements, self.element_edges, self.n_edges)
 
-    @cached_property
+    @_derived
     def neighbours(self):
         """(T, 3) int32: the element across the edge opposite node k, or -1."""
         return topology.neighbours(self.element_edges, self.edge_elements)
 
-    @cached_property
+    @_derived
     def boundary(self):
         """(E,) bool: whether the edge lies on the boundary of the domain."""
         return self.edge_elements[:, 1] < 0
 
-    @cached_property
+    @_derived
     def boundary_nodes(self):
         """(N,) bool: whether the node lies on the boundary of the domain."""
         mask = np.zeros(self.n_nodes, dtype=bool)
         mask[self.edges[self.boundary]] = True
         return mask
 
-    @cached_property
+    @_derived
     def corners(self):
         """(T, 3, 2) float64: coordinates of the three nodes of each element."""
         self._refuse_bad_index()
         return self.nodes[self.elements]
 
-    @cached_property
+    @_derived
     def areas(self):
         """(T,) float64: signed area of each element, positive if counter-clockwise."""
         a, b, c = np.moveaxis(self.corners, 1, 0)
@@ -182,15 +195,7 @@ class Mesh:
         >>> mesh.edge_numbers([[2, 1], [0, 1]]).tolist()
         [2, 0]
         """
-        pairs = np.sort(np.asarray(pairs, dtype=np.int64).reshape(-1, 2), axis=1)
-        own = self.edges.astype(np.int64) @ [self.n_nodes, 1]
-        keys = pairs @ [self.n_nodes, 1]
-        place = np.searchsorted(own, keys).clip(max=len(own) - 1)
-        missing = np.flatnonzero(own[place] != keys)
-        if missing.size:
-            i, j = pairs[missing[0]]
-            raise MeshError("edge", f"nodes {i} and {j} are not joined by an edge", (i, j))
-        return place
+        return topology.edge_numbers(self.edges, self.n_nodes, checks.node_pairs(pairs))
 
     def _refuse_bad_index(self):
         from . import validation
@@ -209,9 +214,9 @@ class Mesh:
         Raises
         ------
         MeshError
-            Names the clause (``index range``, ``duplicate``, ``orientation``,
-            ``degenerate``, ``unused node``, ``overlap``, ``hanging node``), the
-            offending item, and what to do.
+            Names the clause (``index range``, ``duplicate``, ``degenerate``,
+            ``orientation``, ``unused node``, ``overlap``, ``hanging node``,
+            ``green pair``), the offending item, and what to do.
 
         Examples
         --------
@@ -267,9 +272,7 @@ class Mesh:
 
         Parameters
         ----------
-        nodes : (N, 3) array_like of float
-        edges : (E, 3) array_like of int
-        elements : (T, 3) array_like of int
+        nodes, edges, elements : (N, 3), (E, 3) and (T, 3) array_like
             As returned by `to_arrays`; the edges may stand in any order.
 
         Raises
@@ -290,15 +293,7 @@ class Mesh:
                                 "the third the boundary marker")
         mesh = cls(nodes[:, :2], elements)
         numbers = mesh.edge_numbers(edges[:, :2])
-        checks.permutation(numbers, mesh.n_edges)
-        _refuse_wrong_marker("edge", edges[:, 2], mesh.boundary[numbers])
-        _refuse_wrong_marker("node", nodes[:, 2], mesh.boundary_nodes)
+        checks.each_edge_once(numbers, mesh.edges)
+        checks.markers("edge", edges[:, 2], mesh.boundary[numbers])
+        checks.markers("node", nodes[:, 2], mesh.boundary_nodes)
         return mesh
-
-
-def _refuse_wrong_marker(what, given, derived):
-    wrong = np.flatnonzero((given != 0) != derived)
-    if wrong.size:
-        place = "on the boundary" if derived[wrong[0]] else "inside"
-        raise MeshError("marker", f"{what} {wrong[0]} is marked {given[wrong[0]]:g} but lies {place}; "
-                        "mark 1 on the boundary and 0 inside", wrong)

@@ -6,6 +6,7 @@ import numpy as np
 from . import checks
 from .errors import MeshError
 from .mesh import Mesh
+from .validation import halved
 
 MOST_SWEEPS = 1000
 STILL = 1e-9  # movement, relative to the extent of the domain, that ends the iteration
@@ -89,7 +90,9 @@ def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=ST
         movement, refused = kernel.sweep(*arrays, 2 * area, x, y)
         if movement <= still:
             break
-    moved = Mesh._trusted(np.column_stack([x, y]), mesh.elements, mesh.green)
+    nodes = np.column_stack([x, y])
+    green = mesh.green[halved(nodes, mesh.elements, mesh.green)]  # the others can no longer be undone
+    moved = Mesh._trusted(nodes, mesh.elements, green)
     return Smoothing(moved, count, float(movement), int(refused))
 
 

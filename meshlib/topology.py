@@ -53,6 +53,17 @@ def from_smallest(elements):
     return np.take_along_axis(elements, (first + np.arange(3)) % 3, axis=1)
 
 
+def edge_numbers(edges, n_nodes, pairs):
+    """Row in ``edges`` of each pair of nodes (smaller first), or a MeshError."""
+    own, keys = (rows.astype(np.int64) @ [n_nodes, 1] for rows in (edges, pairs))
+    place = np.searchsorted(own, keys).clip(max=len(own) - 1)
+    missing = np.flatnonzero((edges[place] != pairs).any(axis=1))
+    if missing.size:
+        i, j = pairs[missing[0]]
+        raise MeshError("edge", f"nodes {i} and {j} are not joined by an edge", (i, j))
+    return place
+
+
 def _refuse_shared_half_edges(elements, place):
     order = np.argsort(place, axis=None, kind="stable")
     again = np.flatnonzero(np.diff(place.ravel()[order]) == 0)

@@ -10,6 +10,7 @@ from .predicates import orientation
 from .topology import HEADS, TAILS
 
 PAIRS_AT_ONCE = 1_000_000
+MIDDLE = 1e-9  # how far, relatively, the node of a green pair may lie off the middle of an edge
 
 
 def require(clause, mesh):
@@ -74,7 +75,7 @@ def overlap(mesh):
     for i, j in _pairs_of_touching_boxes(mesh):
         found = np.flatnonzero(~_separated(mesh, i, j))
         if found.size:
-            i, j = i[found[0]], j[found[0]]
+            i, j = sorted((int(i[found[0]]), int(j[found[0]])))
             area = common_area(mesh.corners[i], mesh.corners[j])
             return (f"elements {i} and {j} overlap by an area of {area:.6g}; "
                     "remove one or untangle their nodes", (i, j))
@@ -93,7 +94,26 @@ def hanging_node(mesh):
                     "split the element there", (n[first], t))
 
 
-CLAUSES = (index_range, duplicate, degenerate, orientation_, unused_node, overlap, hanging_node)
+def green_pair(mesh):
+    """Every green pair halves a larger element, and no two pairs share an element."""
+    n = mesh.n_elements
+    for t in mesh.green[(mesh.green < 0) | (mesh.green >= n)]:
+        return f"a pair names element {t}; elements are numbered 0 to {n - 1}", (t,)
+    numbers, uses = np.unique(mesh.green, return_counts=True)
+    for t in numbers[uses > 1]:
+        return f"element {t} is in two places; leave one of its pairs out", (t,)
+    for i, j in mesh.green[~halved(mesh.nodes, mesh.elements, mesh.green)]:
+        return f"elements {i} and {j} do not halve a larger one; leave the pair out", (i, j)
+
+
+CLAUSES = (index_range, duplicate, degenerate, orientation_, unused_node, overlap, hanging_node, green_pair)
+
+
+def halved(nodes, elements, pairs):
+    """Whether each pair of elements is (m, c, a), (m, b, c) with m in the middle of a-b."""
+    (m, c, a), (n, b, d) = (elements[side].T for side in pairs.T)
+    off = np.abs(2 * nodes[m] - nodes[a] - nodes[b]).max(axis=1)
+    return (m == n) & (c == d) & (off <= MIDDLE * np.abs(nodes[a] - nodes[b]).max(axis=1))
 
 
 def common_area(first, second):
