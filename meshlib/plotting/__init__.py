@@ -12,10 +12,10 @@ from .meshes import (
     plot_mesh,
     shade_elements,
 )
-from .rows import representation
+from .rows import function_view, representation
 from .surfaces import LEVELS, VIEW, plot_contours, plot_surface, spaced, value_limits
 
 __all__ = ["ACCENT", "FAINT", "INK", "LEVELS", "PALETTE", "SECOND", "SHADE", "VIEW", "WIDTH",
-           "bare", "edges_not_in", "framed", "highlight_edges", "mark_nodes", "number_nodes",
-           "panels", "plot_contours", "plot_mesh", "plot_surface", "representation",
-           "shade_elements", "spaced", "style", "value_limits"]
+           "bare", "edges_not_in", "framed", "function_view", "highlight_edges", "mark_nodes",
+           "number_nodes", "panels", "plot_contours", "plot_mesh", "plot_surface",
+           "representation", "shade_elements", "spaced", "style", "value_limits"]

@@ -1,7 +1,7 @@
 """Meshes, with elements, edges and nodes to look at."""
 import numpy as np
 
-from .look import ACCENT, EDGE_WIDTH, INK, SHADE, THICK, bare, framed
+from .look import ACCENT, EDGE_WIDTH, FONT_SIZE, INK, SHADE, THICK, bare, framed
 
 MARK_SIZE, NUMBER_DISTANCE = 5.0, 9.0  # points
 SHADE_OPACITY = 0.55
@@ -79,11 +79,11 @@ def mark_nodes(ax, mesh, nodes=True, colour=INK, size=MARK_SIZE):
     return ax.plot(x, y, "o", color=colour, markersize=size, zorder=4, clip_on=False)[0]
 
 
-def number_nodes(ax, mesh, nodes=True, labels=None, distance=NUMBER_DISTANCE):
+def number_nodes(ax, mesh, nodes=True, labels=None, distance=NUMBER_DISTANCE, size=FONT_SIZE):
     """Write numbers, or other labels, where they cross no edge; returns the texts."""
     nodes = np.arange(mesh.n_nodes) if nodes is True else np.asarray(nodes)
     return [ax.annotate(str(label), mesh.nodes[node], distance * _free_direction(mesh, node),
-                        textcoords="offset points", ha="center", va="center", zorder=5)
+                        textcoords="offset points", size=size, ha="center", va="center", zorder=5)
             for node, label in zip(nodes, nodes if labels is None else labels, strict=True)]
 
 

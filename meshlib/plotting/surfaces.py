@@ -13,13 +13,13 @@ VIEW = 32, -60  # elevation and azimuth of the eye, degrees
 HEIGHT = 0.62  # of a surface, in units of the width of its domain
 ZOOM = 1.22
 TICK_PAD, LABEL_PAD = -2, -11  # points; matplotlib leaves much room
-LIGHT = np.array([-0.45, -0.25, 0.86])
-SHADOW = 0.5  # how much darker a facet gets that is turned away from the light
+LIGHT = np.array([0.1, -0.55, 0.83])
+SHADOW = 0.55  # how much darker a facet gets that is turned away from the light
 LEVELS = 10
 FINE = 4  # bisections of the 81-node mesh on which a function counts as smooth
 
 
-def plot_surface(ax, surface, limits=None, view=VIEW):
+def plot_surface(ax, surface, limits=None, view=None):
     """Draw an interpolant, element by element, or a smooth function as a surface.
 
     Parameters
@@ -29,8 +29,9 @@ def plot_surface(ax, surface, limits=None, view=VIEW):
         A function u(x, y) is drawn over the unit square, without edges.
     limits : (float, float), optional
         Values at the ends of the vertical axis and of the colours.
-    view : (float, float)
-        Elevation and azimuth of the eye in degrees.
+    view : (float, float), optional
+        Elevation and azimuth of the eye in degrees; by default `VIEW`, or from the
+        other side if the surface would hide its slope from there.
 
     Returns
     -------
@@ -49,7 +50,8 @@ def plot_surface(ax, surface, limits=None, view=VIEW):
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
     u_h, limits = _interpolant(surface), value_limits(surface, limits=limits)
     corners = np.column_stack([u_h.mesh.nodes, u_h.values])[u_h.mesh.elements]
-    colours = _lit(corners, limits)
+    view = view or _uphill(u_h)
+    colours = _lit(corners, limits, view)
     own_edges = surface is u_h
     facets = Poly3DCollection(corners, facecolors=colours, edgecolors=INK if own_edges else colours,
                               linewidths=EDGE_WIDTH / 2, clip_on=False)
@@ -74,12 +76,21 @@ def _box(ax, mesh, limits, view):
     ax.view_init(*view)
 
 
-def _lit(corners, limits):
+def _uphill(u_h):
+    """The view, from in front or from the back, that has the surface rise away from the eye."""
+    elevation, azimuth = VIEW
+    slope = u_h.mesh.areas @ u_h.gradients
+    towards = np.array([np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))])
+    return (elevation, azimuth) if slope @ towards <= 0 else (elevation, -azimuth)
+
+
+def _lit(corners, limits, view):
     """Colours of facets by value, darker where they are turned away from the light."""
     extent = [np.ptp(corners[..., :2]), np.ptp(corners[..., :2]), np.ptp(limits) / HEIGHT]
     a, b, c = np.moveaxis(corners / extent, 1, 0)
     normal = np.cross(b - a, c - a)
-    light = (normal @ LIGHT) / (np.linalg.norm(normal, axis=1) * np.linalg.norm(LIGHT))
+    lamp = LIGHT * [1, -np.sign(view[1]) or 1, 1]  # behind the eye
+    light = (normal @ lamp) / (np.linalg.norm(normal, axis=1) * np.linalg.norm(lamp))
     colours = colours_of(corners[..., 2].mean(axis=1), limits)
     colours[:, :3] *= 1 - SHADOW * (1 - light.clip(0, 1))[:, None]
     return colours

@@ -1,0 +1,83 @@
+"""Small meshes for the drawings of chapters 2 and 3, and what can be done to them."""
+import numpy as np
+
+import meshlib as ml
+
+ROW = 0.866  # height of a row of almost equilateral elements
+SEED = 3
+NEAR = 1e-9
+TRIANGLE = [[0.0, 0.3], [4.2, 0.0], [1.6, 3.4]]
+BULGES = [[0.0, -0.25], [0.3, 0.2], [-0.3, 0.25]]  # of the three sides of the triangle
+SQUARE = [[0, 0], [0.45, 0], [1, 0], [1, 0.55], [1, 1], [0.55, 1], [0, 1], [0, 0.5], [0.74, 0.3]]
+
+
+def hexagon(rings, jitter=0.0):
+    """Rings of elements around a node, the inner nodes moved a little at random."""
+    i, j = np.mgrid[-rings:rings + 1, -rings:rings + 1].reshape(2, -1)
+    nodes = np.column_stack([i + j / 2, ROW * j])[abs(i + j) <= rings]
+    mesh = ml.delaunay(nodes)
+    moves = np.random.default_rng(SEED).uniform(-jitter, jitter, nodes.shape)
+    return ml.Mesh(nodes + moves * ~mesh.boundary_nodes[:, None], mesh.elements).validate()
+
+
+def four_elements():
+    """An element with a neighbour at each side, and the number of that element."""
+    start = ml.Mesh(TRIANGLE, [[0, 1, 2]])
+    parts = split(start, [0]).mesh
+    nodes = parts.nodes + np.vstack([np.zeros((start.n_nodes, 2)), BULGES])
+    middle = int((parts.elements >= start.n_nodes).all(axis=1).argmax())
+    return ml.Mesh(nodes, parts.elements).validate(), middle
+
+
+def flipped(mesh, edge):
+    r"""The mesh with an edge a-b replaced by c-d, whether that is allowed or not.
+
+    ::
+
+            c                 c
+           /|\               / \
+          / | \             / t \
+         a--+--b  is  a-b   a   b   --->   (a, d, c) and (d, b, c)
+          \ | /             \ s /
+           \|/               \ /
+            d                 d
+    """
+    a, b = mesh.edges[edge]
+    t, s = mesh.edge_elements[edge]
+    c, d = (np.setdiff1d(mesh.elements[k], (a, b))[0] for k in (t, s))
+    elements = mesh.elements.copy()
+    elements[[t, s]] = [[a, d, c], [d, b, c]]
+    return ml.Mesh(mesh.nodes, elements)
+
+
+def split(mesh, chosen, how="red-green"):
+    """Refinement of chosen elements, by a criterion that likes all others."""
+    def cost(*_):
+        return np.isin(np.arange(mesh.n_elements), chosen).astype(float)
+    criterion = ml.criteria.Criterion("chosen", "element", cost)
+    share = len(chosen) / mesh.n_elements
+    return ml.refined(mesh, np.zeros(mesh.n_nodes), criterion, share, split=how)
+
+
+def unclosed(mesh, refinement):
+    """The mesh with its marked elements split and no other: nodes may hang."""
+    children = np.isin(refinement.parents, refinement.marked)
+    others = np.setdiff1d(np.arange(mesh.n_elements), refinement.marked)
+    elements = np.vstack([refinement.mesh.elements[children], mesh.elements[others]])
+    return ml.Mesh(refinement.mesh.nodes, elements)
+
+
+def hanging(mesh):
+    """Nodes in the middle of an edge."""
+    middles = mesh.nodes[mesh.edges].mean(axis=1)
+    found = np.flatnonzero((abs(mesh.nodes[:, None] - middles).max(axis=2) < NEAR).any(axis=1))
+    return np.intersect1d(found, mesh.elements)
+
+
+def cuts(mesh, refinement):
+    """Edges that divide elements: those of the refinement, and those of the closure."""
+    new, parents = refinement.mesh, refinement.parents
+    t, s = new.edge_elements.T
+    inside = (s >= 0) & (parents[t] == parents[s])
+    wanted = np.isin(parents[t], refinement.marked) | (new.edges >= mesh.n_nodes).all(axis=1)
+    return np.flatnonzero(inside & wanted), np.flatnonzero(inside & ~wanted)
