@@ -45,8 +45,13 @@ def style():
     ...     matplotlib.rcParams["figure.facecolor"]
     'white'
     """
-    with pyplot().rc_context(RC):
+    settings = pyplot().rcParams
+    before = {name: settings[name] for name in RC}
+    settings.update(RC)
+    try:
         yield
+    finally:  # rc_context would also take back what a notebook sets up at its first figure
+        settings.update(before)
 
 
 def panels(count=1, size=None, labels=False, rows=1):
