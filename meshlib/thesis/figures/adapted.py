@@ -6,13 +6,11 @@ from ..experiments import run
 
 DOUBLE = plotting.WIDTH / 2  # inches, of each of two panels
 HEAVY, DOT = 1.6, 4.0  # points, of what is set off
-FROM_BEHIND = 32, 60  # SR3 is high in front and would hide its slope
-VIEWS = {"SR3": FROM_BEHIND}
 
 
 def started(key):
     """Row of mesh, surface and lines of constant value of an experiment that adapts nothing."""
-    return plotting.representation(run(key).interpolant, view=view(key))
+    return plotting.representation(run(key).interpolant)
 
 
 def swapped(key, label="swapped"):
@@ -36,10 +34,5 @@ def compared(key, label):
     """An experiment, two rows for its start and its result, and the axes of the final mesh."""
     found = run(key)
     figure = plotting.representation(found.interpolant, before=found.start_interpolant,
-                                     labels=("start", label), view=view(key))
+                                     labels=("start", label))
     return found, figure, figure.axes[-3]  # the first of the three in the last row
-
-
-def view(key):
-    """From where the function of an experiment is seen best."""
-    return VIEWS.get(run(key).experiment.function, plotting.VIEW)
