@@ -108,6 +108,13 @@ def fraction(value):
     return float(value)
 
 
+def whole(value, least, what):
+    """A whole number of at least ``least``, or a MeshError."""
+    if not (isinstance(value, (int, np.integer)) and value >= least):
+        raise MeshError("range", f"{what} is {value!r}; give a whole number from {least}")
+    return int(value)
+
+
 def choice(value, options, what):
     """``value`` if it is one of the options, else an error with the nearest one."""
     if value in options:

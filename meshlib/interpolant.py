@@ -8,6 +8,7 @@ from .errors import MeshError
 from .location import located
 
 DEFAULT_DEGREE = 8
+FILLED = 1e-9  # how far, relatively, the domain may fall short of its bounding box
 
 
 class Interpolant:
@@ -106,7 +107,8 @@ class Interpolant:
         Raises
         ------
         MeshError
-            If the rule is unknown, or the domain does not fill its bounding box.
+            If an argument is out of range, the function is not finite, or the domain
+            does not fill its bounding box.
 
         Examples
         --------
@@ -116,13 +118,21 @@ class Interpolant:
         0.004325
         """
         checks.choice(rule, ("trapezium", "exact"), "rule")
-        if rule == "exact":
-            return float(np.sqrt(self.squared_errors(function, degree).sum()))
-        x, y, error = self.error_on_grid(function, points)
-        if np.isnan(error).any():
+        square = self._by_quadrature(function, degree) if rule == "exact" else self._by_grid(function, points)
+        if not np.isfinite(square):
+            raise MeshError("finite", "the function is not finite everywhere in the domain; "
+                            "l2_error needs it to be")
+        return float(np.sqrt(square))
+
+    def _by_quadrature(self, function, degree):
+        return self.squared_errors(function, checks.whole(degree, 0, "degree")).sum()
+
+    def _by_grid(self, function, points):
+        x, y, error = self.error_on_grid(function, checks.whole(points, 2, "points"))
+        if not np.isclose(np.ptp(x) * np.ptp(y), self.mesh.domain_area, rtol=FILLED, atol=0):
             raise MeshError("domain", "the trapezium rule needs a rectangular domain; "
                             'use rule="exact"')
-        return float(np.sqrt(np.trapezoid(np.trapezoid(error ** 2, x, axis=1), y)))
+        return np.trapezoid(np.trapezoid(error ** 2, x, axis=1), y)
 
     def error_on_grid(self, function, points=101):
         """u - u_h on a regular grid: x (points,), y (points,), error (points, points)."""

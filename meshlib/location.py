@@ -1,6 +1,7 @@
 """Which element a point lies in, by a grid of buckets over the bounding box."""
 import numpy as np
 
+FLAT = 1e-12  # area, relative to the products whose difference it is
 INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
 PAIRS_AT_ONCE = 2_000_000
 
@@ -39,37 +40,39 @@ class _Buckets:
 
     def __init__(self, mesh):
         self.mesh = mesh
-        self.low = mesh.nodes.min(axis=0)
-        extent = np.ptp(mesh.nodes, axis=0)
-        self.size = np.sqrt(extent.prod() / mesh.n_elements)
-        self.shape = np.floor(extent / self.size).astype(np.int64) + 1
+        self.low, self.high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
+        self.n = int(np.sqrt(mesh.n_elements))
+        self.flat = _are_flat(mesh.corners)
         self._fill()
 
     def _cell(self, points):
-        return np.floor((points - self.low) / self.size).astype(np.int64)
+        """Column and row of points in the bounding box, n of each however flat the domain."""
+        share = (points - self.low) / (self.high - self.low)
+        return np.floor(share * self.n).astype(np.int64).clip(0, self.n - 1)
 
     def _fill(self):
-        first = self._cell(self.mesh.corners.min(axis=1)).clip(0, self.shape - 1)
-        last = self._cell(self.mesh.corners.max(axis=1)).clip(0, self.shape - 1)
+        first = self._cell(self.mesh.corners.min(axis=1))
+        last = self._cell(self.mesh.corners.max(axis=1))
         width, height = (last - first + 1).T
         element = np.repeat(np.arange(len(first)), width * height)
         place = _count_up(width * height)
         row, column = np.divmod(place, width[element])
-        cell = (first[element, 1] + row) * self.shape[0] + first[element, 0] + column
+        cell = (first[element, 1] + row) * self.n + first[element, 0] + column
         self.elements = element[np.argsort(cell, kind="stable")]
-        load = np.bincount(cell, minlength=self.shape.prod())
+        load = np.bincount(cell, minlength=self.n ** 2)
         self.starts = np.concatenate([[0], np.cumsum(load)])
         self.mean_load = max(1.0, float((load ** 2).sum() / max(load.sum(), 1)))
 
     def search(self, points):
         """The best element of each point's cell, or -1."""
-        cell = self._cell(points)
-        known = ((cell >= 0) & (cell < self.shape)).all(axis=1)
-        flat = np.where(known, cell[:, 1] * self.shape[0] + cell[:, 0], 0)
+        known = ((points >= self.low) & (points <= self.high)).all(axis=1)  # NaN is not
+        cell = self._cell(np.where(known[:, None], points, self.low))
+        flat = cell[:, 1] * self.n + cell[:, 0]
         load = np.where(known, self.starts[flat + 1] - self.starts[flat], 0)
         point = np.repeat(np.arange(len(points)), load)
         candidate = self.elements[self.starts[flat][point] + _count_up(load)]
         depth = barycentric(self.mesh.corners[candidate], points[point]).min(axis=1)
+        depth[self.flat[candidate] & (depth > -INSIDE)] = -INSIDE
         return _deepest(point, candidate, depth, len(points))
 
 
@@ -96,6 +99,13 @@ def barycentric(corners, points):
     second = (p[:, 0] * v[:, 1] - p[:, 1] * v[:, 0]) / area
     third = (u[:, 0] * p[:, 1] - u[:, 1] * p[:, 0]) / area
     return np.column_stack([1 - second - third, second, third])
+
+
+def _are_flat(corners):
+    """Elements whose area is rounding noise; they are asked only where there is no other."""
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    left, right = u[:, 0] * v[:, 1], u[:, 1] * v[:, 0]
+    return np.abs(left - right) <= FLAT * (np.abs(left) + np.abs(right))
 
 
 def _count_up(lengths):

@@ -80,8 +80,7 @@ def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=ST
     springs = _spring_constants(mesh, springs)
     area = _limit(min_area, "min_area")
     still = _limit(tolerance, "tolerance") * np.ptp(mesh.nodes, axis=0).max()
-    if not (isinstance(sweeps, (int, np.integer)) and sweeps >= 1):
-        raise MeshError("range", f"sweeps is {sweeps!r}; give a whole number from 1")
+    sweeps = checks.whole(sweeps, 1, "sweeps")
     from .kernels import springs as kernel
     from .kernels.backend import flat
     x, y = (flat(v) for v in mesh.nodes.T)
