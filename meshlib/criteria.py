@@ -20,17 +20,30 @@ of n edges, and the opposite nodes of the elements to their left and right.  An
 element cost gets its three nodes likewise, a node cost the `Interpolant`.  Costs
 must be at least 0, and larger where the mesh is worse.
 """
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 import numpy as np
 
 from . import checks
+from .costs import (
+    angle_between_normals,
+    deviations_from_linear_polynomials,
+    distances_from_planes,
+    element_errors,
+    gradient_spread,
+    jump_in_normal_derivatives,
+    largest_angle,
+    plane_gradients,
+    smallest_angle,
+)
 from .errors import MeshError
-from .interpolant import Interpolant, gradients, squared_errors
-from .norms import NORMS, norm_of, precedes
-from .quality import EQUILATERAL, angles
+from .interpolant import Interpolant
+from .norms import precedes
 from .topology import HEADS, TAILS
+
+__all__ = ["Criterion", "costs", "get", "min_error", "names", "plane_gradients", "prefers",
+           "register", "unregister"]
 
 PLACES = ("edge", "element", "node")
 ERROR_DEGREE = 6
@@ -126,18 +139,15 @@ def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
     Examples
     --------
     >>> from meshlib import Mesh
-    >>> nodes = [[0, 0], [1, 0], [1, 1], [0, 1]]
-    >>> one = Mesh(nodes, [[0, 1, 2], [0, 2, 3]])
-    >>> other = Mesh(nodes, [[0, 1, 3], [1, 2, 3]])
-    >>> prefers(other, one, [0, 0, 1, 0]), prefers(one, other, [0, 0, 1, 0])
-    (False, False)
-    >>> prefers(other, one, [0, 0, 2, 1]), prefers(one, other, [0, 0, 2, 1])
-    (False, False)
+    >>> nodes = [[0, 0], [1, 0], [2, 1], [0, 1]]
+    >>> short, long = (Mesh(nodes, e) for e in ([[0, 1, 3], [1, 2, 3]], [[0, 1, 2], [0, 2, 3]]))
+    >>> prefers(short, long, [0, 0, 0, 1], "jnd"), prefers(long, short, [0, 0, 0, 1], "jnd")
+    (True, False)
     """
     criterion = get(criterion)
     pair = values if isinstance(values, tuple) else (values, values)
     first, second = (criterion.costs(mesh, np.zeros(mesh.n_nodes) if v is None else v)
-                     for mesh, v in zip((mesh_a, mesh_b), pair))
+                     for mesh, v in zip((mesh_a, mesh_b), pair, strict=True))
     return precedes(first, second, norm)
 
 
@@ -171,72 +181,6 @@ def _points(u_h):
 _EVALUATE = {"edge": _on_edges, "element": _on_elements, "node": _on_nodes}
 
 
-# -- the cost functions ----------------------------------------------------------------
-
-
-def plane_gradients(a, b, c):
-    """Gradients (n, 2) of the planes through points in space, each (n, 3)."""
-    points = np.stack([a, b, c], axis=1)
-    return gradients(points[..., :2], points[..., 2])
-
-
-def jump_in_normal_derivatives(p, q, left, right):
-    """JND (section 3.1.2): |n . (g1 - g2)|, n the unit normal of the edge."""
-    jump = plane_gradients(p, q, left) - plane_gradients(q, p, right)
-    along = (q - p)[:, :2]
-    normal = along[:, ::-1] * [1, -1] / np.hypot(*along.T)[:, None]
-    return np.abs((normal * jump).sum(axis=1))
-
-
-def angle_between_normals(p, q, left, right):
-    """ABN (section 3.1.3), by arctan2, which is accurate for small angles too."""
-    g, h = plane_gradients(p, q, left), plane_gradients(q, p, right)
-    first, second = (np.column_stack([-v, np.ones(len(v))]) for v in (g, h))
-    cross = np.linalg.norm(np.cross(first, second), axis=1)
-    return np.arctan2(cross, (first * second).sum(axis=1))
-
-
-def deviations_from_linear_polynomials(p, q, left, right):
-    """DLP: how far each plane misses the opposite node of the other, as a 2-norm."""
-    return np.hypot(*_misses(p, q, left, right))
-
-
-def distances_from_planes(p, q, left, right):
-    """DFP: as DLP, with the distance from the plane in space instead of the height."""
-    g, h = plane_gradients(p, q, left), plane_gradients(q, p, right)
-    over, under = _misses(p, q, left, right)
-    return np.hypot(over / np.sqrt(1 + (g ** 2).sum(axis=1)), under / np.sqrt(1 + (h ** 2).sum(axis=1)))
-
-
-def _misses(p, q, left, right):
-    g, h = plane_gradients(p, q, left), plane_gradients(q, p, right)
-    over = p[:, 2] + (g * (right - p)[:, :2]).sum(axis=1) - right[:, 2]
-    under = p[:, 2] + (h * (left - p)[:, :2]).sum(axis=1) - left[:, 2]
-    return over, under
-
-
-def smallest_angle(a, b, c):
-    """Max-min criterion (section 2.3.1): how far the smallest angle is below 60 degrees."""
-    return EQUILATERAL - angles(np.stack([a, b, c], axis=1)[..., :2]).min(axis=1)
-
-
-def largest_angle(a, b, c):
-    """Min-max criterion (section 2.3.1): how far the largest angle is above 60 degrees."""
-    return angles(np.stack([a, b, c], axis=1)[..., :2]).max(axis=1) - EQUILATERAL
-
-
-def gradient_spread(u_h):
-    """Node cost: root mean square deviation of the gradients in the patch from their mean."""
-    nodes, mesh = u_h.mesh.elements.ravel(), u_h.mesh
-    weights = np.repeat(np.abs(mesh.areas), 3)
-    area = np.bincount(nodes, weights, mesh.n_nodes)
-    spread = np.zeros(mesh.n_nodes)
-    for g in u_h.gradients.T:
-        mean = np.bincount(nodes, weights * np.repeat(g, 3), mesh.n_nodes) / area
-        spread += np.bincount(nodes, weights * (np.repeat(g, 3) - mean[nodes]) ** 2, mesh.n_nodes) / area
-    return np.sqrt(spread)
-
-
 def min_error(function, degree=ERROR_DEGREE):
     """The min-error criterion (section 2.4.1) for a known function u.
 
@@ -261,8 +205,7 @@ def min_error(function, degree=ERROR_DEGREE):
     True
     """
     def cost(a, b, c):
-        points = np.stack([a, b, c], axis=1)
-        return np.sqrt(squared_errors(points[..., :2], points[..., 2], function, degree))
+        return element_errors(a, b, c, function, degree)
     return Criterion("min-error", "element", cost, "L2 error",
                      unit=lambda extent, height: height * extent)
 
@@ -311,7 +254,7 @@ def get(criterion):
     >>> get("jmd")
     Traceback (most recent call last):
         ...
-    meshlib.errors.MeshError: unknown: criterion 'jmd' is not known; did you mean 'jnd'? (known: 'jnd', 'abn', 'dlp', 'dfp', 'smallest-angle', 'largest-angle', 'gradient-spread')
+    meshlib.errors.MeshError: unknown: criterion 'jmd' is not known; did you mean 'jnd'? (known: ...)
     """
     if isinstance(criterion, Criterion):
         return criterion

@@ -1,6 +1,6 @@
 """Test functions u(x, y) by name, each with its formula, source and peculiarities."""
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 import numpy as np
 

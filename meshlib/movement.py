@@ -85,7 +85,7 @@ def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=ST
     from .kernels.backend import flat
     x, y = (flat(v) for v in mesh.nodes.T)
     arrays = [flat(v) for v in _patches(mesh, springs)]
-    for count in range(1, sweeps + 1):
+    for count in range(1, sweeps + 1):  # noqa: B007 (the result tells how many it took)
         movement, refused = kernel.sweep(*arrays, 2 * area, x, y)
         if movement <= still:
             break

@@ -9,7 +9,7 @@ Functions are in `functions`.  Node sets and start meshes:
 ``"81"``        81     a 9 x 9 lattice, from four nodes by three refinements
 ==============  =====  ==========================================================
 """
-from functools import lru_cache
+from functools import cache
 from importlib.resources import files
 
 import numpy as np
@@ -53,7 +53,7 @@ def nodes(name):
     return _arrays(checks.choice(name, names, "node set"))[0]
 
 
-@lru_cache(maxsize=None)
+@cache
 def mesh(name):
     """The start mesh on a node set.
 
@@ -157,7 +157,7 @@ def split_in_four(nodes, edges, elements):
     [121, 344, 224]
     """
     middle = len(nodes) + np.arange(len(edges))
-    number = {frozenset(edge): m for edge, m in zip(edges.tolist(), middle.tolist())}
+    number = {frozenset(edge): m for edge, m in zip(edges.tolist(), middle.tolist(), strict=True)}
     a, b, c = elements.T
     ab, bc, ca = ([number[frozenset(pair)] for pair in np.column_stack(ends).tolist()]
                   for ends in ((a, b), (b, c), (c, a)))

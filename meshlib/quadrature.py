@@ -1,10 +1,10 @@
 """Quadrature on the reference triangle, exact to any degree."""
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 
 
-@lru_cache(maxsize=None)
+@cache
 def rule(degree):
     """Barycentric points and weights, exact for polynomials up to ``degree``.
 

@@ -197,7 +197,7 @@ def _rows(sweep, log, costs, count):
     rows = np.zeros(count, dtype=TRACE)
     rows["sweep"] = sweep
     table = np.reshape(log[:6 * count], (-1, 6))
-    for name, column in zip(("edge", "a", "b", "c", "d", "accepted"), table.T):
+    for name, column in zip(("edge", "a", "b", "c", "d", "accepted"), table.T, strict=True):
         rows[name] = column
     rows["old"], rows["new"] = np.reshape(costs[:2 * count], (-1, 2)).T
     return rows

@@ -71,7 +71,7 @@ def unused_node(mesh):
 
 def overlap(mesh):
     """No two elements have area in common."""
-    mesh.edge_elements  # two elements on the same side of an edge are found here
+    _ = mesh.edge_elements  # two elements on the same side of an edge are found here
     for i, j in _pairs_of_touching_boxes(mesh):
         found = np.flatnonzero(~_separated(mesh, i, j))
         if found.size:
@@ -122,7 +122,7 @@ def common_area(first, second):
     The second is cut by the three half-planes of the first, one after the other.
     """
     polygon = list(np.asarray(second, dtype=float))
-    for a, b in zip(first, np.roll(first, -1, axis=0)):
+    for a, b in zip(first, np.roll(first, -1, axis=0), strict=True):
         polygon = _cut(polygon, a, b)
     if len(polygon) < 3:
         return 0.0
@@ -135,7 +135,7 @@ def _cut(polygon, a, b):
     def height(p):
         return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
     kept = []
-    for p, q in zip(polygon, polygon[1:] + polygon[:1]):
+    for p, q in zip(polygon, polygon[1:] + polygon[:1], strict=True):
         hp, hq = height(p), height(q)
         if hp >= 0:
             kept.append(p)

@@ -77,8 +77,8 @@ def _edge_costs(cost, points, apex, quad):
     a, b, c, d = quad
     sides = [(b, c), (c, a), (a, d), (d, b)]
     beyond = [apex.get((q, p)) for p, q in sides]
-    old = [(a, b, c, d)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (a, b, b, a), beyond)]
-    new = [(c, d, b, a)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (d, d, c, c), beyond)]
+    old = [(a, b, c, d)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (a, b, b, a), beyond, strict=True)]
+    new = [(c, d, b, a)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (d, d, c, c), beyond, strict=True)]
     return tuple(cost(*np.moveaxis(points[[_canonical(*s) for s in stencils if s[3] is not None]], 1, 0))
                  for stencils in (old, new))
 

@@ -5,10 +5,10 @@ those whose printed numbers depend on the edge order and on rounding noise read 
 from a certificate, a file of explicit data.
 """
 import json
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property
 from importlib.resources import files
-from typing import Callable
 
 import numpy as np
 
@@ -155,7 +155,7 @@ EXPERIMENTS = {e.key: e for e in (
 )}
 
 
-@lru_cache(maxsize=None)
+@cache
 def run(key):
     """Carry out an experiment by its key.
 
@@ -190,7 +190,7 @@ def run(key):
     return Result(experiment, start, record.mesh, record, kind)
 
 
-@lru_cache(maxsize=None)
+@cache
 def certificate(name):
     """The data of a certificate, or None if there is no such file."""
     file = files(__package__) / "certificates" / name

@@ -51,7 +51,7 @@ class Printed:
 
 
 def _geometry(angle, skewness, ratio, l2=None):
-    entries = dict(zip(GEOMETRY, (angle, skewness, ratio)))
+    entries = dict(zip(GEOMETRY, (angle, skewness, ratio), strict=True))
     return entries | ({"l2_error": l2} if l2 else {})
 
 
@@ -138,7 +138,7 @@ def numbers():
 def _entries(table, column):
     for measure, entry in column.entries.items():
         texts = entry.split(", ")
-        for statistic, text in zip(STATISTICS if len(texts) > 1 else ("",), texts):
+        for statistic, text in zip(STATISTICS if len(texts) > 1 else ("",), texts, strict=True):
             key = "/".join(filter(None, (table, column.title, measure, statistic)))
             yield Printed(key, heading(table), ROWS[measure],
                           ", ".join(filter(None, (column.title, statistic))),

@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import problems
 from ..errors import missing_extra
-from . import experiments, printed, scoreboard
+from . import printed, scoreboard
 
 HEAD = ("Mesh", "Measure", "Printed", "Reproduced", "Verdict")
 CAPTIONS = {
@@ -73,9 +73,10 @@ def appendix_a():
     """The nodes of Appendix A beside those that Franke published."""
     number = np.arange(1, len(problems.nodes("33")) + 1)
     columns = (number, *problems.nodes("33").T, *problems.nodes("33-franke").T)
-    rows = [f"{n} | {x:.1f} | {y:.1f} | {fx:.2f} | {fy:.2f}" for n, x, y, fx, fy in zip(*columns)]
+    rows = [f"{n} | {x:.1f} | {y:.1f} | {fx:.2f} | {fy:.2f}"
+            for n, x, y, fx, fy in zip(*columns, strict=True)]
     rows += [" | " * 4] * (2 * NODES_PER_COLUMN - len(rows))
-    pairs = [(left, right) for left, right in zip(rows, rows[NODES_PER_COLUMN:])]
+    pairs = zip(rows[:NODES_PER_COLUMN], rows[NODES_PER_COLUMN:], strict=True)
     return _markdown(_grid(("Node", "$x$", "$y$", "$x$, Franke", "$y$, Franke") * 2, pairs))
 
 
