@@ -21,7 +21,7 @@ def execute(path):
     """Run the notebook at `path` in its own folder and write it back."""
     notebook = nbformat.read(path, as_version=4)
     NotebookClient(notebook, timeout=SECONDS_PER_CELL, kernel_name=KERNEL["name"],
-                   record_timing=False, store_widget_state=False,
+                   record_timing=False, store_widget_state=False, coalesce_streams=True,
                    resources={"metadata": {"path": str(path.parent)}}).execute()
     nbformat.write(stripped(notebook), path)
 
