@@ -2,7 +2,7 @@
 
 A cost on edges gets points in space (x, y, u), four (n, 3) arrays: the ends p, q of n
 edges and the opposite nodes of the elements to their left and right.  A cost on
-elements gets the three corners likewise, a cost on nodes the `Interpolant`.  All
+elements gets the three corners likewise, a cost on nodes the ``Interpolant``.  All
 return one number of at least 0 for each edge, element or node.
 
 The compiled forms in `meshlib.kernels.lop` are tested against these.
@@ -27,7 +27,7 @@ def plane_gradients(a, b, c):
 
 
 def jump_in_normal_derivatives(p, q, left, right):
-    """JND (section 3.1.2): |n . (g1 - g2)|, n the unit normal of the edge."""
+    """JND (section 3.1.2): the size of n . (g1 - g2), n the unit normal of the edge."""
     jump = plane_gradients(p, q, left) - plane_gradients(q, p, right)
     along = (q - p)[:, :2]
     normal = along[:, ::-1] * [1, -1] / np.hypot(*along.T)[:, None]

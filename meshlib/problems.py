@@ -2,12 +2,14 @@
 
 Functions are in `functions`.  Node sets and start meshes:
 
-==============  =====  ==========================================================
-``"33"``        33     Appendix A: Franke's 33 nodes, rounded to one decimal
-``"33-franke"`` 33     the same set as Franke published it
-``"33-refined"`` 121   the start mesh on ``"33"``, every element split in four
-``"81"``        81     a 9 x 9 lattice, from four nodes by three refinements
-==============  =====  ==========================================================
+================  =====  ==========================================================
+name              nodes  what it is
+================  =====  ==========================================================
+``"33"``             33  Appendix A: Franke's 33 nodes, rounded to one decimal
+``"33-franke"``      33  the same set as Franke published it
+``"33-refined"``    121  the start mesh on ``"33"``, every element split in four
+``"81"``             81  a 9 x 9 lattice, from four nodes by three refinements
+================  =====  ==========================================================
 """
 from functools import cache
 from importlib.resources import files
