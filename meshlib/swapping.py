@@ -14,6 +14,7 @@ TRACE = np.dtype([("sweep", np.int32), ("edge", np.int32), ("a", np.int32), ("b"
                   ("c", np.int32), ("d", np.int32), ("accepted", bool),
                   ("old", np.float64), ("new", np.float64)])
 LARGEST_MIN_ANGLE = 60.0
+JUST_MET = 1 - 1e-10  # a limit that is met but for rounding is met
 
 
 @dataclass(frozen=True)
@@ -147,7 +148,7 @@ def _limits(min_angle, min_area):
         raise MeshError("range", f"min_angle is {min_angle}; give degrees from 0 to below 60")
     if not 0 <= area < np.inf:
         raise MeshError("range", f"min_area is {min_area}; give a finite area of at least 0")
-    return Limits(np.radians(angle), area)
+    return Limits(np.radians(angle) * JUST_MET, area * JUST_MET)
 
 
 def _tolerance(tolerance, norm, scale):
@@ -205,6 +206,5 @@ def _rows(sweep, log, costs, count):
 
 def _plain(mesh, values, criterion, norm, order, limits, tolerance, trace):
     from .kernels import reference
-    elements, swaps, tried = reference.swapped(mesh, values, criterion, norm, order, limits, tolerance)
-    rows = np.array(tried, dtype=TRACE)
-    return elements, swaps, int(rows["sweep"].max(initial=1)), len(rows), rows
+    elements, swaps, sweeps, tried = reference.swapped(mesh, values, criterion, norm, order, limits, tolerance)
+    return elements, swaps, sweeps, len(tried), np.array(tried, dtype=TRACE)

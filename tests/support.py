@@ -122,10 +122,15 @@ def all_meshes(start):
     return [flips.mesh(t) for t in sorted(flips.reachable(as_set(start)), key=sorted)]
 
 
-def shuffled(mesh, rng, steps=None):
-    """A mesh of the same nodes, some random flips away."""
-    flips = Flips(mesh.nodes)
-    return flips.mesh(flips.walk(as_set(mesh), rng, 3 * mesh.n_nodes if steps is None else steps))
+def shuffled(mesh, rng, steps=None, unit=None):
+    """A mesh of the same nodes, some random flips away.
+
+    What is collinear as decimal numbers seldom is as binary ones: with ``unit`` the nodes
+    are taken for multiples of it, so that no element is flat but for rounding.
+    """
+    flips = Flips(mesh.nodes if unit is None else np.rint(mesh.nodes / unit))
+    found = flips.mesh(flips.walk(as_set(mesh), rng, 3 * mesh.n_nodes if steps is None else steps))
+    return Mesh(mesh.nodes, found.elements).validate()
 
 
 def is_delaunay(mesh):

@@ -15,7 +15,7 @@ FLAT = 1e-12
 
 
 def swapped(mesh, values, criterion, norm, order, limits, tolerance):
-    """Elements after Algorithm 3.1.4, the number of swaps, and every tried swap."""
+    """Elements after Algorithm 3.1.4, the numbers of swaps and sweeps, and every tried swap."""
     apex = {(a, b): c for t in mesh.elements.tolist() for a, b, c in (t, t[1:] + t[:1], t[2:] + t[:2])}
     slots, points = [tuple(e) for e in mesh.edges.tolist()], np.column_stack([mesh.nodes, values])
     local_cost = {"edge": _edge_costs, "element": _element_costs, "node": _node_costs}[criterion.on]
@@ -34,7 +34,7 @@ def swapped(mesh, values, criterion, norm, order, limits, tolerance):
             if accepted:
                 _swap(apex, quad)
                 slots[e], swaps, changed = (c, d), swaps + 1, True
-    return _elements(apex), swaps, tried
+    return _elements(apex), swaps, sweep, tried
 
 
 def _quadrilateral(apex, edge):
