@@ -1,5 +1,6 @@
 """Checks of what a user hands in, made before anything is computed from it."""
 import difflib
+from numbers import Real
 
 import numpy as np
 
@@ -11,7 +12,7 @@ LARGEST_NUMBER = np.iinfo(np.int32).max
 
 def node_array(nodes):
     """Nodes as an (N, 2) float64 array of finite coordinates, or a MeshError."""
-    nodes = _numeric(nodes, "nodes")
+    nodes = numeric(nodes, "nodes")
     if nodes.ndim != 2 or nodes.shape[1] != 2:
         raise MeshError("shape", f"nodes have shape {nodes.shape}; give an (N, 2) array of x and y")
     if len(nodes) < MINIMUM_NODES:
@@ -90,7 +91,7 @@ def nodal_values(mesh, values):
     """
     if callable(values):
         values = values(*mesh.nodes.T)
-    values = _numeric(values, "values")
+    values = numeric(values, "values")
     if values.shape != (mesh.n_nodes,):
         raise MeshError("shape", f"values have shape {values.shape}; give one value "
                         f"for each of the {mesh.n_nodes} nodes")
@@ -103,8 +104,13 @@ def nodal_values(mesh, values):
 
 def fraction(value):
     """A number in [0, 1], or a MeshError."""
-    if not (np.isscalar(value) and np.isreal(value) and 0 <= value <= 1):
-        raise MeshError("range", f"fraction is {value!r}; give a number from 0 to 1, 0.2 for 20 %")
+    return number(value, "fraction", 0, np.nextafter(1, 2), "a number from 0 to 1, 0.2 for 20 %")
+
+
+def number(value, what, least, above, remedy):
+    """A real number with least <= number < above, or a MeshError."""
+    if not (isinstance(value, Real) and least <= value < above):
+        raise MeshError("range", f"{what} is {value!r}; give {remedy}")
     return float(value)
 
 
@@ -117,7 +123,7 @@ def whole(value, least, what):
 
 def choice(value, options, what):
     """``value`` if it is one of the options, else an error with the nearest one."""
-    if value in options:
+    if np.isscalar(value) and value in options:
         return value
     near = difflib.get_close_matches(str(value), [str(o) for o in options], n=1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
@@ -125,15 +131,15 @@ def choice(value, options, what):
     raise MeshError("unknown", f"{what} {value!r} is not known{hint} (known: {listed})")
 
 
-def permutation(order, size):
-    """``order`` as an (E,) array that names every edge once, or a MeshError."""
-    order = np.arange(size) if order is None else np.asarray(order)
+def permutation(order, size, what="edge"):
+    """``order`` as an array that names every edge (element, node) once, or a MeshError."""
+    order = np.arange(size) if order is None else _regular(order, "order")
     if order.shape != (size,) or order.dtype.kind not in "iu":
         raise MeshError("shape", f"order has shape {order.shape} and dtype {order.dtype}; "
-                        f"give the {size} edge numbers in the order of inspection")
+                        f"give the {size} {what} numbers, each once")
     missing = np.setdiff1d(np.arange(size), order)
     if missing.size:
-        raise MeshError("order", f"edge {missing[0]} is not in order; name each edge once", missing)
+        raise MeshError("order", f"{what} {missing[0]} is not in order; name each {what} once", missing)
     return order.astype(np.int64)
 
 
@@ -141,7 +147,7 @@ def _regular(array, what):
     try:
         return np.asarray(array)
     except ValueError:
-        raise MeshError("shape", f"{what} have rows of different lengths; give a regular array") from None
+        raise MeshError("shape", f"the rows of {what} differ in length; give a regular array") from None
 
 
 def _numbers(array, what, columns, shape):
@@ -154,7 +160,8 @@ def _numbers(array, what, columns, shape):
     return array
 
 
-def _numeric(array, what):
+def numeric(array, what):
+    """Real numbers as a float64 array, or a MeshError."""
     array = _regular(array, what)
     if array.dtype.kind not in "fiu":
         raise MeshError("dtype", f"{what} have dtype {array.dtype}; give real numbers")

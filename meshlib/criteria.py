@@ -87,7 +87,7 @@ class Criterion:
 
     def costs(self, mesh, values):
         """The cost vector of a mesh: one cost for each edge, element or node."""
-        return _EVALUATE[self.on](self.cost, Interpolant(mesh, values))
+        return np.asarray(_EVALUATE[self.on](self.cost, Interpolant(mesh, values)), dtype=float)
 
     def scale(self, mesh, values):
         """Size of a typical cost, for the absolute part of a tolerance."""

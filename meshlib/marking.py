@@ -112,7 +112,7 @@ def _parts(place):
 
 
 def _worst(costs, target, ties, order):
-    ranked, group = _ranking(costs, order)
+    ranked, group = _ranking(costs, order, "element")
     if ties == "all":
         target = np.searchsorted(group, group[target - 1], side="right")
     return np.sort(ranked[:target])
@@ -120,19 +120,19 @@ def _worst(costs, target, ties, order):
 
 def _around(mesh, costs, mark, target, order):
     """Elements at the worst edges or nodes, as many of these as the target takes."""
-    ranked, _ = _ranking(costs, order)
+    ranked, _ = _ranking(costs, order, mark)
     rank = np.empty(len(ranked), dtype=np.int64)
     rank[ranked] = np.arange(len(ranked))
     first = rank[mesh.element_edges if mark == "edge" else mesh.elements].min(axis=1)
     return np.flatnonzero(first <= np.sort(first)[target - 1])
 
 
-def _ranking(costs, order):
+def _ranking(costs, order, what):
     """Numbers by descending cost, equal costs in the given order, and their groups."""
-    order = checks.permutation(order, len(costs))
+    order = checks.permutation(order, len(costs), what)
     if not np.isfinite(costs).all():
         bad = np.flatnonzero(~np.isfinite(costs))
-        raise MeshError("finite", f"the cost of item {bad[0]} is {costs[bad[0]]}; "
+        raise MeshError("finite", f"the cost of {what} {bad[0]} is {costs[bad[0]]}; "
                         "the criterion must return finite numbers", bad)
     descending = order[np.argsort(-costs[order], kind="stable")]
     drops = -np.diff(costs[descending]) > TIED * np.abs(costs).max()

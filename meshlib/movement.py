@@ -96,16 +96,13 @@ def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=ST
 
 
 def _limit(value, what):
-    value = 0.0 if value is None else value
-    if not (np.isscalar(value) and 0 <= value < np.inf):
-        raise MeshError("range", f"{what} is {value!r}; give a finite number of at least 0")
-    return float(value)
+    return checks.number(0 if value is None else value, what, 0, np.inf, "a finite number of at least 0")
 
 
 def _spring_constants(mesh, springs):
     if springs is None:
         return np.ones(mesh.n_edges)
-    springs = np.asarray(springs, dtype=float)
+    springs = checks.numeric(springs, "springs")
     if springs.shape != (mesh.n_edges,):
         raise MeshError("shape", f"springs have shape {springs.shape}; give one constant "
                         f"for each of the {mesh.n_edges} edges")
@@ -113,7 +110,7 @@ def _spring_constants(mesh, springs):
     if bad.size:
         raise MeshError("range", f"the spring constant of edge {bad[0]} is {springs[bad[0]]}; "
                         "give finite numbers of at least 0", bad)
-    return springs
+    return springs / (springs.max(initial=0) or 1)  # only ratios matter, and sums stay finite
 
 
 def _patches(mesh, springs):

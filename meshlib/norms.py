@@ -9,7 +9,7 @@ RELATIVE, ABSOLUTE = 1e-12, 1e-11
 
 def checked(norm):
     """The norm, one of 1, 2, "max" and "lexicographic"; infinity is another "max"."""
-    return "max" if norm == np.inf else checks.choice(norm, NORMS, "norm")
+    return "max" if np.isscalar(norm) and norm == np.inf else checks.choice(norm, NORMS, "norm")
 
 
 def measure(costs, norm, grain=0.0):

@@ -5,7 +5,6 @@ from functools import cached_property
 import numpy as np
 
 from . import checks, criteria, norms
-from .errors import MeshError
 from .interpolant import gradients
 from .mesh import Mesh
 from .topology import from_smallest
@@ -143,11 +142,9 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
 
 
 def _limits(min_angle, min_area):
-    angle, area = min_angle or 0.0, min_area or 0.0
-    if not 0 <= angle < LARGEST_MIN_ANGLE:
-        raise MeshError("range", f"min_angle is {min_angle}; give degrees from 0 to below 60")
-    if not 0 <= area < np.inf:
-        raise MeshError("range", f"min_area is {min_area}; give a finite area of at least 0")
+    angle, area = (0 if limit is None else limit for limit in (min_angle, min_area))
+    angle = checks.number(angle, "min_angle", 0, LARGEST_MIN_ANGLE, "degrees from 0 to below 60")
+    area = checks.number(area, "min_area", 0, np.inf, "a finite area of at least 0")
     return Limits(np.radians(angle) * JUST_MET, area * JUST_MET)
 
 
@@ -155,9 +152,7 @@ def _tolerance(tolerance, norm, scale):
     relative, absolute = norms.tolerance(norm, scale)
     if tolerance is None:
         return relative, absolute
-    if not 0 <= tolerance < np.inf:
-        raise MeshError("range", f"tolerance is {tolerance}; give a finite gain of at least 0")
-    return relative, float(tolerance)
+    return relative, checks.number(tolerance, "tolerance", 0, np.inf, "a finite gain of at least 0")
 
 
 _NORM_CODES = {1: 1, 2: 2, "max": 0}

@@ -108,7 +108,7 @@ def test_edge_numbers_refuses_what_is_no_edge(square, pair):
     ([0, 1, 2], "shape: pairs have shape (3,); give an (m, 2) array of node numbers"),
     ([[0, 1, 2]], "shape: pairs have shape (1, 3); give an (m, 2) array of node numbers"),
     ([[0.0, 1.0]], "dtype: pairs have dtype float64; give whole numbers"),
-    ([[0, 1], [2]], "shape: pairs have rows of different lengths; give a regular array"),
+    ([[0, 1], [2]], "shape: the rows of pairs differ in length; give a regular array"),
 ])
 def test_edge_numbers_refuses_what_is_no_list_of_pairs(square, pairs, message):
     with pytest.raises(MeshError) as error:
