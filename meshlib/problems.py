@@ -1,6 +1,7 @@
 """Test functions, node sets and start meshes by name (sections 4.1 to 4.3).
 
-Functions are in `functions`.  Node sets and start meshes:
+Functions are in ``functions`` by name; those of the thesis also as ``SR1``, ``SR2``,
+``SR3`` and ``DD1``.  Node sets and start meshes:
 
 ================  =====  ==========================================================
 name              nodes  what it is
@@ -21,12 +22,14 @@ from .delaunay import delaunay
 from .functions import TestFunction, functions
 from .mesh import Mesh
 
-__all__ = ["TestFunction", "functions", "mesh", "names", "nodes", "order"]
+__all__ = ["DD1", "SR1", "SR2", "SR3", "TestFunction", "functions", "mesh", "names", "nodes", "order"]
 
 SQUARE_NODES = [[0, 0], [1, 0], [1, 1], [0, 1]]
 SQUARE_EDGES = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]
 SQUARE_ELEMENTS = [[0, 1, 2], [0, 2, 3]]
 REFINEMENTS_TO_81 = 3
+
+SR1, SR2, SR3, DD1 = (functions[name] for name in ("SR1", "SR2", "SR3", "DD1"))
 
 names = ("33", "33-refined", "81", "33-franke")
 
