@@ -4,8 +4,10 @@ import numpy as np
 from . import checks
 from .errors import MeshError
 from .mesh import Mesh
-from .predicates import incircle, orientation
+from .predicates import incircle, nearly_flat, orientation
 from .topology import HEADS, TAILS, from_smallest
+
+NEW = (0, 3, 2), (3, 0, 1)  # (a, d, c) and (d, a, b) of a quadrilateral (a, b, c, d)
 
 
 def delaunay(nodes):
@@ -23,7 +25,8 @@ def delaunay(nodes):
     Returns
     -------
     Mesh
-        A conforming mesh of the convex hull of the nodes.
+        A conforming mesh of the convex hull of the nodes, without the slivers between
+        hull and nodes that lie on it but for rounding.
 
     Raises
     ------
@@ -50,7 +53,7 @@ def delaunay(nodes):
     nodes = checks.node_array(nodes)
     checks.distinct_nodes(nodes)
     _refuse_collinear(nodes)
-    elements = _flipped_to_delaunay(nodes, _counter_clockwise(nodes, _qhull(nodes)))
+    elements = _flipped_to_delaunay(nodes, _without_flat(nodes, _qhull(nodes)))
     unused = np.setdiff1d(np.arange(len(nodes)), elements)
     if unused.size:
         raise MeshError("unused node", f"node {unused[0]} is too close to others to be meshed; "
@@ -71,15 +74,44 @@ def _qhull(nodes):
     try:
         return Delaunay(centred / np.abs(centred).max()).simplices
     except QhullError as error:
-        raise MeshError("collinear", "the nodes are too nearly on one line to be meshed; "
-                        "scale the flat direction up first") from error
+        raise _nearly_collinear() from error
 
 
-def _counter_clockwise(nodes, elements):
-    """Elements turned counter-clockwise, those without area left out."""
-    turns = orientation(*np.moveaxis(nodes[elements], 1, 0))
-    elements[turns < 0] = elements[turns < 0][:, [0, 2, 1]]
-    return elements[turns != 0].astype(np.int32)
+def _without_flat(nodes, elements):
+    """Elements that rounding laid flat or turned over, swapped away.
+
+    Those with their longest side on the boundary are left out: there the hull is
+    straight but for rounding.
+    """
+    flat = nearly_flat(nodes[elements])
+    while flat.any():
+        mesh = Mesh(nodes, elements)
+        longest = _longest_edges(mesh, flat)
+        outer = mesh.edge_elements[longest[mesh.boundary[longest]], 0]
+        elements = np.delete(elements, outer, axis=0) if outer.size else _unfolded(mesh, np.unique(longest))
+        if not len(elements):
+            raise _nearly_collinear()
+        flat = nearly_flat(nodes[elements])
+    return elements
+
+
+def _longest_edges(mesh, some):
+    sides = np.roll(mesh.corners[some], -1, axis=1) - np.roll(mesh.corners[some], 1, axis=1)
+    return mesh.element_edges[some, (sides ** 2).sum(axis=2).argmax(axis=1)]
+
+
+def _unfolded(mesh, edges):
+    """Elements after a swap of those edges whose new elements are not flat."""
+    quads, pairs = _quadrilaterals(mesh, edges)
+    good = ~np.any([nearly_flat(mesh.nodes[quads[:, new]]) for new in NEW], axis=0)
+    if not good.any():
+        raise _nearly_collinear()
+    return _swapped(mesh, *_independent(quads[good], pairs[good], mesh.n_elements)).elements
+
+
+def _nearly_collinear():
+    return MeshError("collinear", "the nodes are too nearly on one line to be meshed; "
+                     "scale the flat direction up first")
 
 
 def _flipped_to_delaunay(nodes, elements):
@@ -103,15 +135,19 @@ def _flipped_to_delaunay(nodes, elements):
         if not wrong.any():
             break
         quads, pairs = _independent(quads[wrong], pairs[wrong], mesh.n_elements)
-        a, b, c, d = quads.T
-        elements = mesh.elements.copy()
-        elements[pairs[:, 0]] = np.column_stack([a, d, c])
-        elements[pairs[:, 1]] = np.column_stack([d, a, b])
-        mesh = Mesh(nodes, elements)
+        mesh = _swapped(mesh, quads, pairs)
         changed = np.zeros(mesh.n_elements, dtype=bool)
         changed[pairs] = True
         edges = np.flatnonzero(~mesh.boundary & changed[mesh.edge_elements].any(axis=1))
     return mesh.elements
+
+
+def _swapped(mesh, quads, pairs):
+    """The mesh with the diagonals b-c of the quadrilaterals swapped for a-d."""
+    elements = mesh.elements.copy()
+    for side, new in zip(pairs.T, NEW):
+        elements[side] = quads[:, new]
+    return Mesh(mesh.nodes, elements)
 
 
 def _quadrilaterals(mesh, edges):

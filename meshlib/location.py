@@ -1,7 +1,8 @@
 """Which element a point lies in, by a grid of buckets over the bounding box."""
 import numpy as np
 
-FLAT = 1e-12  # area, relative to the products whose difference it is
+from .predicates import nearly_flat
+
 INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
 PAIRS_AT_ONCE = 2_000_000
 
@@ -42,7 +43,7 @@ class _Buckets:
         self.mesh = mesh
         self.low, self.high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
         self.n = int(np.sqrt(mesh.n_elements))
-        self.flat = _are_flat(mesh.corners)
+        self.flat = nearly_flat(mesh.corners)  # asked only where there is no other element
         self._fill()
 
     def _cell(self, points):
@@ -99,13 +100,6 @@ def barycentric(corners, points):
     second = (p[:, 0] * v[:, 1] - p[:, 1] * v[:, 0]) / area
     third = (u[:, 0] * p[:, 1] - u[:, 1] * p[:, 0]) / area
     return np.column_stack([1 - second - third, second, third])
-
-
-def _are_flat(corners):
-    """Elements whose area is rounding noise; they are asked only where there is no other."""
-    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    left, right = u[:, 0] * v[:, 1], u[:, 1] * v[:, 0]
-    return np.abs(left - right) <= FLAT * (np.abs(left) + np.abs(right))
 
 
 def _count_up(lengths):

@@ -11,6 +11,8 @@ ROUNDOFF = 2.0 ** -53
 ORIENTATION_BOUND = (3 + 16 * ROUNDOFF) * ROUNDOFF
 INCIRCLE_BOUND = (10 + 96 * ROUNDOFF) * ROUNDOFF
 MANTISSA_BITS = 53
+FLAT = 1e-12  # area, relative to the products whose difference it is
+ULPS = 16  # of the coordinates, times the longest edge: what rounding does to an area
 
 
 def orientation(a, b, c):
@@ -62,6 +64,32 @@ def incircle(a, b, c, d):
     1
     """
     return _sign(_circle, INCIRCLE_BOUND, a, b, c, d)
+
+
+def nearly_flat(corners):
+    """Triangles that rounding of their coordinates may have laid flat or turned over.
+
+    Parameters
+    ----------
+    corners : (T, 3, 2) ndarray of float
+
+    Returns
+    -------
+    (T,) ndarray of bool
+        Also true for triangles that are clockwise.
+
+    Examples
+    --------
+    >>> sliver = [[0.0, 0.0], [0.1, 0.3], [0.2, 0.6]], [[0.0, 0.0], [1.0, 0.0], [1.0, 1e-9]]
+    >>> nearly_flat(np.array(sliver)).tolist()
+    [True, False]
+    """
+    unit = np.abs(corners).max(initial=0) or 1  # products of tiny coordinates underflow
+    a, b, c = np.moveaxis(corners / unit, 1, 0)
+    u, v = b - a, c - a
+    left, right = u[:, 0] * v[:, 1], u[:, 1] * v[:, 0]
+    moved = ULPS * ROUNDOFF * np.abs(corners / unit).max(axis=(1, 2)) * np.abs([u, v]).max(axis=(0, 2))
+    return left - right <= FLAT * (np.abs(left) + np.abs(right)) + moved
 
 
 def _sign(formula, bound, *points):

@@ -4,8 +4,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import checks
+from .errors import MeshError
 from .marking import marked as marked_elements
 from .mesh import Mesh
+from .predicates import orientation
 from .splitting import SPLITS
 
 
@@ -87,8 +89,16 @@ def refined(mesh, values, criterion="abn", fraction=0.2, mark="element", split="
     chosen = marked_elements(mesh, values, criterion, fraction, mark, ties, order)
     elements, parents, corners, green = SPLITS[split](mesh, chosen)
     nodes = np.vstack([mesh.nodes, mesh.nodes[corners].mean(axis=1)])
+    _refuse_too_thin(mesh, nodes[elements], parents)
     result = Mesh._trusted(nodes, elements, green)
     return Refinement(result, chosen, parents, _values(result, mesh, values, corners))
+
+
+def _refuse_too_thin(mesh, corners, parents):
+    """Midpoints are rounded: an element about as thin as that has no parts."""
+    bad = np.unique(parents[orientation(*np.moveaxis(corners, 1, 0)) <= 0])
+    if bad.size:
+        raise MeshError("degenerate", f"element {bad[0]} is too thin to be split; move one of its nodes", bad)
 
 
 def _values(result, mesh, values, corners):

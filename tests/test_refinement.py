@@ -271,6 +271,16 @@ def test_a_hole_stays_a_hole(frame, split, rng):
     assert new.domain_area == pytest.approx(8)
 
 
+@pytest.mark.parametrize("split", SPLITS)
+def test_an_element_too_thin_for_a_middle_is_refused(split):
+    """Its nodes are one ulp apart, so that no number is left between them."""
+    x = 1.0 + 2.0 ** -52
+    mesh = Mesh([[1, 1], [x, 1], [1, np.nextafter(1.0, 2)]], [[0, 1, 2]]).validate()
+    with pytest.raises(MeshError) as error:
+        refined(mesh, [0, 0, 1], fraction=1, split=split)
+    assert str(error.value) == "degenerate: element 0 is too thin to be split; move one of its nodes"
+
+
 def test_costs_that_are_not_finite_are_named(square):
     bad = criteria.Criterion("bad", "element", lambda a, b, c: np.array([0.0, np.nan]))
     with pytest.raises(MeshError) as error:
