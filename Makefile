@@ -19,9 +19,12 @@ help: ## Show this list
 book: $(READY) ## Run the notebooks and build _build/html/index.html
 	$(BIN)/jupyter-book build . --all -W -n --keep-going
 
-# First the reference backend, then everything; loadfile keeps a notebook on one kernel.
+# First what plain Python alone can break: test_backends compares both backends by
+# itself, test_properties takes long. Then everything; loadfile keeps a notebook on
+# one kernel.
 test: $(READY) ## Unit tests (both backends), doctests, notebooks against their stored output
-	MESHLIB_BACKEND=python $(BIN)/python -m pytest tests -q -n $(WORKERS) --dist loadfile
+	MESHLIB_BACKEND=python $(BIN)/python -m pytest tests -q -n $(WORKERS) --dist loadfile \
+	    --ignore tests/test_backends.py --ignore tests/test_properties.py
 	$(BIN)/python -m pytest tests meshlib notebooks --doctest-modules \
 	    --nbval --nbval-current-env -n $(WORKERS) --dist loadfile
 
