@@ -111,8 +111,9 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     that it is the same number whenever these elements occur.  And a swap is made only
     if ``new < old (1 - 1e-12) - a``: by more than the rounding of a sum of five.  The
     absolute part ``a``, 1e-11 of the size of a typical cost of such data (squared for
-    L2) or the tolerance given, keeps an edge where old and new cost differ by noise,
-    so that the mesh is the same on every machine.
+    L2) or the tolerance given, keeps an edge where old and new cost differ by noise
+    alone, so that the result does not hang on the last bit.  The lexicographic order
+    compares costs rounded to multiples of ``a`` instead.
 
     Built-in edge and angle criteria run compiled where numba is installed; the
     lexicographic order and one's own criteria run in Python.
