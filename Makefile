@@ -34,7 +34,7 @@ notebooks: $(READY) ## Run the notebooks in place and strip what changes from ru
 lock: ## Pin the newest versions that pyproject.toml allows in requirements.txt
 	$(PYTHON) -m venv $(VENV)-lock
 	$(VENV)-lock/bin/python -m pip install --quiet uv
-	$(VENV)-lock/bin/uv pip compile pyproject.toml --all-extras --upgrade --quiet \
+	$(VENV)-lock/bin/uv pip compile pyproject.toml --all-extras --upgrade --quiet --fork-strategy fewest \
 	    --universal --python-version 3.11 --no-annotate --no-header -o requirements.txt
 	echo '-e .' >> requirements.txt
 
