@@ -145,7 +145,7 @@ def permutation(order, size, what="edge"):
 
 def _regular(array, what):
     try:
-        return np.asarray(array)
+        return array.astype(float).filled(np.nan) if np.ma.is_masked(array) else np.asarray(array)
     except ValueError:
         raise MeshError("shape", f"the rows of {what} differ in length; give a regular array") from None
 

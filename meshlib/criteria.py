@@ -87,7 +87,12 @@ class Criterion:
 
     def costs(self, mesh, values):
         """The cost vector of a mesh: one cost for each edge, element or node."""
-        return np.asarray(_EVALUATE[self.on](self.cost, Interpolant(mesh, values)), dtype=float)
+        vector = np.asarray(_EVALUATE[self.on](self.cost, Interpolant(mesh, values)), dtype=float)
+        bad = np.flatnonzero(~np.isfinite(vector))
+        if bad.size:
+            raise MeshError("finite", f"the cost of {self.on} {bad[0]} is {vector[bad[0]]}; "
+                            "the criterion must return finite numbers", bad)
+        return vector
 
     def scale(self, mesh, values):
         """Size of a typical cost, for the absolute part of a tolerance."""

@@ -2,7 +2,6 @@
 import numpy as np
 
 from . import checks, criteria
-from .errors import MeshError
 
 MARKS = ("element", "edge", "node", "density")
 TIES = ("first", "all")
@@ -130,10 +129,6 @@ def _around(mesh, costs, mark, target, order):
 def _ranking(costs, order, what):
     """Numbers by descending cost, equal costs in the given order, and their groups."""
     order = checks.permutation(order, len(costs), what)
-    if not np.isfinite(costs).all():
-        bad = np.flatnonzero(~np.isfinite(costs))
-        raise MeshError("finite", f"the cost of {what} {bad[0]} is {costs[bad[0]]}; "
-                        "the criterion must return finite numbers", bad)
     descending = order[np.argsort(-costs[order], kind="stable")]
     drops = -np.diff(costs[descending]) > TIED * np.abs(costs).max()
     group = np.concatenate([[0], np.cumsum(drops)])

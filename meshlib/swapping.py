@@ -136,9 +136,10 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
 
     def run(trace):
         return procedure(mesh, values, criterion, norm, order, limits, tolerance, trace)
+    before = norms.norm_of(criterion.costs(mesh, values), norm)
     elements, swaps, sweeps, tried, _ = run(trace=False)
     result = Mesh._trusted(mesh.nodes, elements) if swaps else mesh
-    before, after = (norms.norm_of(criterion.costs(m, values), norm) for m in (mesh, result))
+    after = norms.norm_of(criterion.costs(result, values), norm)
     return Swapping(result, swaps, sweeps, tried, before, after, run)
 
 

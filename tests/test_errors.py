@@ -221,3 +221,30 @@ def test_nothing_is_changed_by_a_refusal(rng):
     message(smoothed, mesh, -np.ones(33))
     for array, copy in zip((mesh.nodes, mesh.elements, values), before):
         assert np.array_equal(array, copy)
+
+
+def test_masked_values_are_not_taken_for_numbers():
+    mesh = problems.mesh("33")
+    values = np.ma.masked_array(np.zeros(33), mask=np.arange(33) == 7)
+    with pytest.raises(MeshError) as error:
+        swapped(mesh, values)
+    assert str(error.value) == "finite: the value at node 7 is nan; fill it in or remove the node"
+
+
+def test_a_criterion_that_returns_nan_does_not_pass_for_one_that_swaps_nothing():
+    mesh, bad = problems.mesh("33"), criteria.Criterion("bad", "element", lambda a, b, c: a[:, 0] * NAN)
+    with pytest.raises(MeshError) as error:
+        swapped(mesh, np.zeros(33), bad)
+    assert str(error.value) == "finite: the cost of element 0 is nan; the criterion must return finite numbers"
+
+
+def test_a_cost_that_becomes_nan_on_the_way_is_named():
+    square = Mesh([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+    known = {(0.0, 1.0), (1.0, 0.0), (0.0, 0.0)}  # values left and right of the first diagonal
+
+    def cost(p, q, left, right):
+        return np.array([0.0 if pair in known else NAN for pair in zip(left[:, 2], right[:, 2], strict=True)])
+    with pytest.raises(MeshError) as error:
+        swapped(square, [2.0, 0.0, 2.0, 1.0], criteria.Criterion("known", "edge", cost))
+    assert str(error.value) == ("finite: a cost around edge (0, 2) is not finite; "
+                                "the criterion must return finite numbers")

@@ -7,6 +7,7 @@ algorithm is shared with the compiled form, whose oracle this is.
 import numpy as np
 
 from .. import norms
+from ..errors import MeshError
 from ..interpolant import Interpolant
 from ..mesh import Mesh
 from ..quality import angles
@@ -27,7 +28,7 @@ def swapped(mesh, values, criterion, norm, order, limits, tolerance):
             if quad is None or _is_refused(mesh.nodes, quad, limits):
                 continue
             a, b, c, d = quad
-            old, new = (norms.measure(h, norm, tolerance[1])
+            old, new = (norms.measure(_finite(h, a, b), norm, tolerance[1])
                         for h in local_cost(criterion.cost, points, apex, quad))
             accepted = norms.is_below(new, old, *tolerance)
             tried.append((sweep, e, a, b, c, d, accepted, np.max(old), np.max(new)))
@@ -35,6 +36,13 @@ def swapped(mesh, values, criterion, norm, order, limits, tolerance):
                 _swap(apex, quad)
                 slots[e], swaps, changed = (c, d), swaps + 1, True
     return _elements(apex), swaps, sweep, tried
+
+
+def _finite(costs, a, b):
+    if np.isfinite(costs).all():
+        return costs
+    raise MeshError("finite", f"a cost around edge ({a}, {b}) is not finite; "
+                    "the criterion must return finite numbers", (a, b))
 
 
 def _quadrilateral(apex, edge):
