@@ -10,8 +10,8 @@ from ..plotting.surfaces import colours_of
 
 DPI = 150
 ERRORS = "cividis"
-SHAPE = WIDTH, 0.475 * WIDTH
-LETTERS = 8  # points, in the table
+SHAPE = WIDTH, 0.6 * WIDTH
+LETTERS, COLUMNS = 10, 6  # points and columns of each of the two tables
 HEAD = 2.6  # its lines of labels, in lines of numbers
 NARROW = re.compile(r",? (?!\()")  # a new line for each word, but not for a unit
 STAGES = "start", "adapted"
@@ -49,12 +49,14 @@ def figure(state):
     """
     limits = value_limits(state.start.interpolant, state.adapted.interpolant)
     drawn = pyplot().figure(figsize=SHAPE, layout="constrained")
-    axes = drawn.subplot_mosaic([["mesh", "lines", "error"], ["table"] * 3], height_ratios=(3.2, 1))
+    axes = drawn.subplot_mosaic([["mesh", "lines", "error"], ["counts"] * 3, ["shapes"] * 3],
+                                 height_ratios=(3.2, 1, 1))
     drawn.suptitle(str(state.settings), fontsize="medium")
     _draw_mesh(axes["mesh"], state.adapted.interpolant, limits)
     plot_contours(axes["lines"], state.adapted.interpolant, limits=limits, ticks=True)
     _draw_error(axes["error"], state)
-    _draw_table(axes["table"], state.rows)
+    _draw_table(axes["counts"], state.rows[:COLUMNS])
+    _draw_table(axes["shapes"], state.rows[COLUMNS:])
     for name, title in (("mesh", "mesh over the interpolant"), ("lines", "lines of constant value"),
                         ("error", "error |u − u$_h$|")):
         axes[name].set_title(title)
