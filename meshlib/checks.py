@@ -7,6 +7,7 @@ import numpy as np
 from .errors import MeshError
 
 MINIMUM_NODES = 3
+LARGEST_VALUE = 1e120  # squares of gradients of such values are still numbers, and of their inverses too
 LARGEST_NUMBER = np.iinfo(np.int32).max
 
 
@@ -99,7 +100,32 @@ def nodal_values(mesh, values):
     if bad.size:
         raise MeshError("finite", f"the value at node {bad[0]} is {values[bad[0]]}; "
                         "fill it in or remove the node", bad)
+    size = np.abs(values).max()
+    if size > LARGEST_VALUE or 0 < size < 1 / LARGEST_VALUE:
+        raise MeshError("range", f"the largest value is {size:g}, whose square is out of range; "
+                        "measure u in another unit")
     return values
+
+
+def cost_vector(costs, size, what):
+    """What a criterion returned as (size,) floats of at least 0, or a MeshError."""
+    costs = np.asarray(costs, dtype=float)
+    if costs.shape != (size,):
+        raise MeshError("shape", f"the criterion returned costs of shape {costs.shape} "
+                        f"for {size} {what}s; return one number for each")
+    bad = np.flatnonzero(~(np.isfinite(costs) & (costs >= 0)))
+    if bad.size:
+        raise MeshError("cost", f"the cost of {what} {bad[0]} is {costs[bad[0]]}; "
+                        "a criterion must return finite numbers of at least 0", bad)
+    return costs
+
+
+def a_mesh(mesh):
+    """The mesh, validated once in its life, or a MeshError if it is something else."""
+    if hasattr(mesh, "_checked"):
+        return mesh._checked()
+    hint = "take its .mesh" if hasattr(mesh, "mesh") else "make a meshlib.Mesh or use meshlib.delaunay"
+    raise MeshError("type", f"a mesh is needed, this is a {type(mesh).__name__}; {hint}")
 
 
 def fraction(value):
@@ -125,8 +151,9 @@ def choice(value, options, what):
     """``value`` if it is one of the options, else an error with the nearest one."""
     if np.isscalar(value) and value in options:
         return value
-    near = difflib.get_close_matches(str(value), [str(o) for o in options], n=1)
-    hint = f"; did you mean {near[0]!r}?" if near else ""
+    by_text = {str(option).lower(): option for option in options}
+    near = difflib.get_close_matches(value.lower(), by_text, n=1) if isinstance(value, str) else ()
+    hint = f"; did you mean {by_text[near[0]]!r}?" if near else ""
     listed = ", ".join(repr(o) for o in options)
     raise MeshError("unknown", f"{what} {value!r} is not known{hint} (known: {listed})")
 

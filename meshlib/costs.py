@@ -71,12 +71,14 @@ def _misses(p, q, left, right):
 
 def smallest_angle(a, b, c):
     """Max-min criterion (section 2.3.1): how far the smallest angle is below 60 degrees."""
-    return EQUILATERAL - angles(np.stack([a, b, c], axis=1)[..., :2]).min(axis=1)
+    smallest = angles(np.stack([a, b, c], axis=1)[..., :2]).min(axis=1)
+    return np.maximum(EQUILATERAL - smallest, 0)  # not below 0 by rounding
 
 
 def largest_angle(a, b, c):
     """Min-max criterion (section 2.3.1): how far the largest angle is above 60 degrees."""
-    return angles(np.stack([a, b, c], axis=1)[..., :2]).max(axis=1) - EQUILATERAL
+    largest = angles(np.stack([a, b, c], axis=1)[..., :2]).max(axis=1)
+    return np.maximum(largest - EQUILATERAL, 0)  # not below 0 by rounding
 
 
 def element_errors(a, b, c, function, degree):

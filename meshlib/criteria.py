@@ -68,11 +68,13 @@ class Criterion:
         rounding noise; by default only relative differences count.
     code : int, optional
         Number of the compiled form in `meshlib.kernels.lop`; none for one's own.
+    geometric : bool
+        Whether the cost depends on the nodes alone, so that `prefers` needs no values.
 
     Raises
     ------
     MeshError
-        If ``on`` is not one of the three places.
+        If ``on`` is not one of the three places, or the cost not a function.
     """
 
     name: str
@@ -81,18 +83,16 @@ class Criterion:
     title: str = ""
     unit: Callable = lambda extent, height: 0.0
     code: int = -1
+    geometric: bool = False
 
     def __post_init__(self):
         checks.choice(self.on, PLACES, "place")
+        if not callable(self.cost):
+            raise MeshError("type", f"the cost of {self.name!r} is {self.cost!r}; give a function")
 
     def costs(self, mesh, values):
         """The cost vector of a mesh: one cost for each edge, element or node."""
-        vector = np.asarray(_EVALUATE[self.on](self.cost, Interpolant(mesh, values)), dtype=float)
-        bad = np.flatnonzero(~np.isfinite(vector))
-        if bad.size:
-            raise MeshError("finite", f"the cost of {self.on} {bad[0]} is {vector[bad[0]]}; "
-                            "the criterion must return finite numbers", bad)
-        return vector
+        return _EVALUATE[self.on](self.cost, Interpolant(mesh, values))
 
     def scale(self, mesh, values):
         """Size of a typical cost, for the absolute part of a tolerance."""
@@ -150,6 +150,8 @@ def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
     (True, False)
     """
     criterion = get(criterion)
+    if values is None and not criterion.geometric:
+        raise MeshError("shape", f"criterion {criterion.name!r} depends on the data; give values")
     pair = values if isinstance(values, tuple) else (values, values)
     first, second = (criterion.costs(mesh, np.zeros(mesh.n_nodes) if v is None else v)
                      for mesh, v in zip((mesh_a, mesh_b), pair, strict=True))
@@ -166,17 +168,19 @@ def _on_edges(cost, u_h):
     k = (mesh.element_edges[t] == inner[:, None]).argmax(axis=1)
     m = (mesh.element_edges[s] == inner[:, None]).argmax(axis=1)
     p, q = mesh.elements[t, np.take(TAILS, k)], mesh.elements[t, np.take(HEADS, k)]
+    found = cost(points[p], points[q], points[mesh.elements[t, k]], points[mesh.elements[s, m]])
     vector = np.zeros(mesh.n_edges)
-    vector[inner] = cost(points[p], points[q], points[mesh.elements[t, k]], points[mesh.elements[s, m]])
+    vector[inner] = checks.cost_vector(found, len(inner), "inner edge")
     return vector
 
 
 def _on_elements(cost, u_h):
-    return cost(*np.moveaxis(_points(u_h)[u_h.mesh.elements], 1, 0))
+    found = cost(*np.moveaxis(_points(u_h)[u_h.mesh.elements], 1, 0))
+    return checks.cost_vector(found, u_h.mesh.n_elements, "element")
 
 
 def _on_nodes(cost, u_h):
-    return cost(u_h)
+    return checks.cost_vector(cost(u_h), u_h.mesh.n_nodes, "node")
 
 
 def _points(u_h):
@@ -222,6 +226,8 @@ _registry = {}
 
 def register(criterion):
     """File a criterion under its name, for widgets, `swapped` and `refined`; returns it."""
+    if not isinstance(criterion, Criterion):
+        raise MeshError("type", f"this is a {type(criterion).__name__}; register a Criterion")
     if criterion.name in _registry:
         raise MeshError("duplicate", f"a criterion {criterion.name!r} exists; choose another name")
     _registry[criterion.name] = criterion
@@ -278,9 +284,9 @@ for _criterion in (
     Criterion("dfp", "edge", distances_from_planes, "distances from planes",
               lambda extent, height: min(height, extent), code=3),
     Criterion("smallest-angle", "element", smallest_angle, "smallest angle",
-              lambda extent, height: 1.0, code=4),
+              lambda extent, height: 1.0, code=4, geometric=True),
     Criterion("largest-angle", "element", largest_angle, "largest angle",
-              lambda extent, height: 1.0, code=5),
+              lambda extent, height: 1.0, code=5, geometric=True),
     Criterion("gradient-spread", "node", gradient_spread, "spread of the gradients in the patch",
               lambda extent, height: height / extent),
 ):

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .checks import choice
+
 THESIS = "section 4.2 of the thesis, after Malcolm"
 FRANKE = "Franke 1982; Renka & Brown 1999 (Algorithm 792)"
 
@@ -92,7 +94,23 @@ def _sphere(x, y):
     return np.sqrt(64 - 81 * _from_centre(x, y)) / 9 - 0.5
 
 
-functions = {f.name: f for f in (
+class Functions(dict):
+    """Test functions by name; an unknown name is refused with the nearest one.
+
+    Examples
+    --------
+    >>> from meshlib import problems
+    >>> problems.functions["sr1"]
+    Traceback (most recent call last):
+        ...
+    meshlib.errors.MeshError: unknown: function 'sr1' is not known; did you mean 'SR1'? (known: ...)
+    """
+
+    def __missing__(self, name):
+        return choice(name, tuple(self), "function")
+
+
+functions = Functions((f.name, f) for f in (
     TestFunction("SR1", _sr1, r"\tfrac19(\tanh(9y-9x)+1)", THESIS,
                  "Franke's cliff; the factor is 1/9, that of SR2 is 1/2"),
     TestFunction("SR2", _sr2, r"\tfrac12(\tanh(9y+9x-9)+1)", THESIS),
@@ -109,4 +127,4 @@ functions = {f.name: f for f in (
                  "Delaunay is its best mesh on given nodes"),
     TestFunction("hyperbolic", lambda x, y: x ** 2 - y ** 2, "x^2-y^2", "quadratic, det H < 0"),
     TestFunction("product", lambda x, y: x * y, "xy", "quadratic, det H < 0"),
-)}
+))

@@ -37,7 +37,7 @@ class Interpolant:
     """
 
     def __init__(self, mesh, values):
-        self.mesh = mesh._checked()
+        self.mesh = checks.a_mesh(mesh)
         self.values = checks.nodal_values(mesh, values)
         self.values.flags.writeable = False
 

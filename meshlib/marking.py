@@ -49,7 +49,7 @@ def marked(mesh, values, criterion="abn", fraction=0.2, mark="element", ties="fi
     >>> len(marked(problems.mesh("33"), u, "abn", 0.2, "edge"))
     13
     """
-    mesh = mesh._checked()
+    mesh = checks.a_mesh(mesh)
     values = checks.nodal_values(mesh, values)
     criterion, share = criteria.get(criterion), checks.fraction(fraction)
     checks.choice(mark, MARKS, "mark")

@@ -76,7 +76,7 @@ def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=ST
     >>> result.sweeps, bool(abs(result.mesh.nodes - problems.nodes("81")).max() < 1e-12)
     (1, True)
     """
-    mesh = mesh._checked()
+    mesh = checks.a_mesh(mesh)
     springs = _spring_constants(mesh, springs)
     area = _limit(min_area, "min_area")
     still = _limit(tolerance, "tolerance") * np.ptp(mesh.nodes, axis=0).max()

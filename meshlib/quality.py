@@ -3,6 +3,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .checks import a_mesh
+
 EQUILATERAL = np.pi / 3
 MEASURES = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
 
@@ -73,7 +75,7 @@ def quality(mesh):
     Skewness          0.3491    0.3491
     Aspect ratio      0.8660    0.8660
     """
-    mesh = mesh._checked()
+    mesh = a_mesh(mesh)
     angle = angles(mesh.corners)
     squared_edges = ((mesh.corners - np.roll(mesh.corners, 1, axis=1)) ** 2).sum(axis=(1, 2))
     return Quality(maximum_angle=np.degrees(angle.max(axis=1)),

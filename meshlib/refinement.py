@@ -26,7 +26,7 @@ class Refinement:
         pair put together again, the first of the pair.
     values : (N',) ndarray of float64
         Nodal values: of the function if one was given, else with the means of the
-        old values at the new nodes, which leave the interpolant as it was.
+        old values at the new nodes.
     """
 
     mesh: Mesh
@@ -71,8 +71,9 @@ def refined(mesh, values, criterion="abn", fraction=0.2, mark="element", split="
 
     Notes
     -----
-    The mesh remembers its green pairs in ``mesh.green``.  When it is refined again,
-    they are put together first (section 3.2.4), so that angles do not deteriorate
+    The mesh remembers its green pairs in ``mesh.green``; swapping, smoothing and the
+    other splits keep those that they leave alone.  When it is refined again, they
+    are put together first (section 3.2.4), so that angles do not deteriorate
     over repeated calls: every angle is one of the start mesh or of the bisection
     of an element similar to one of the start mesh.
 
@@ -86,12 +87,19 @@ def refined(mesh, values, criterion="abn", fraction=0.2, mark="element", split="
     (89, 256, 168)
     """
     checks.choice(split, tuple(SPLITS), "split")
+    mesh = checks.a_mesh(mesh)
     chosen = marked_elements(mesh, values, criterion, fraction, mark, ties, order)
     elements, parents, corners, green = SPLITS[split](mesh, chosen)
     nodes = np.vstack([mesh.nodes, mesh.nodes[corners].mean(axis=1)])
     _refuse_too_thin(mesh, nodes[elements], parents)
-    result = Mesh._trusted(nodes, elements, green)
+    result = Mesh._trusted(nodes, elements, _kept_green(mesh, parents) if green is None else green)
     return Refinement(result, chosen, parents, _values(result, mesh, values, corners))
+
+
+def _kept_green(mesh, parents):
+    """The green pairs of which neither half was split, by their new numbers."""
+    whole = np.bincount(parents, minlength=mesh.n_elements) == 1
+    return np.searchsorted(parents, mesh.green[whole[mesh.green].all(axis=1)])
 
 
 def _refuse_too_thin(mesh, corners, parents):

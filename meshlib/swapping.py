@@ -27,7 +27,8 @@ class Swapping:
     swaps, sweeps, tried : int
         Accepted swaps; sweeps over all edges, the last without a swap; swaps tried.
     cost_before, cost_after : float
-        Norm of the cost vector of the whole mesh.
+        Norm of the cost vector of the whole mesh; with the lexicographic order its
+        largest entry.
     """
 
     mesh: Mesh
@@ -44,8 +45,8 @@ class Swapping:
 
         Fields: ``sweep``, ``edge`` (its number in the start mesh), the old edge
         ``a``-``b``, the new edge ``c``-``d``, ``accepted``, and the local costs
-        ``old`` and ``new`` as the norm compares them (squared for L2).  The
-        procedure is deterministic, so the trace is made by running it again.
+        ``old`` and ``new`` as the norm compares them (squared for L2; the first that
+        differ in the lexicographic order).  The procedure is deterministic, so the trace is made by running it again.
         """
         return self._run(trace=True)[-1]
 
@@ -126,7 +127,7 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     >>> result.swaps, result.sweeps
     (56, 2)
     """
-    mesh = mesh._checked()
+    mesh = checks.a_mesh(mesh)
     values = checks.nodal_values(mesh, values)
     criterion, norm = criteria.get(criterion), norms.checked(norm)
     order = checks.permutation(order, mesh.n_edges)
@@ -138,9 +139,15 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
         return procedure(mesh, values, criterion, norm, order, limits, tolerance, trace)
     before = norms.norm_of(criterion.costs(mesh, values), norm)
     elements, swaps, sweeps, tried, _ = run(trace=False)
-    result = Mesh._trusted(mesh.nodes, elements) if swaps else mesh
+    result = _swapped_mesh(mesh, elements) if swaps else mesh
     after = norms.norm_of(criterion.costs(result, values), norm)
     return Swapping(result, swaps, sweeps, tried, before, after, run)
+
+
+def _swapped_mesh(mesh, elements):
+    """The new mesh, with the green pairs whose elements are still in their rows."""
+    kept = (elements == mesh.elements).all(axis=1)
+    return Mesh._trusted(mesh.nodes, elements, mesh.green[kept[mesh.green].all(axis=1)])
 
 
 def _limits(min_angle, min_area):
@@ -204,4 +211,13 @@ def _rows(sweep, log, costs, count):
 def _plain(mesh, values, criterion, norm, order, limits, tolerance, trace):
     from .kernels import reference
     elements, swaps, sweeps, tried = reference.swapped(mesh, values, criterion, norm, order, limits, tolerance)
-    return elements, swaps, sweeps, len(tried), np.array(tried, dtype=TRACE)
+    return _in_rows(elements, mesh), swaps, sweeps, len(tried), np.array(tried, dtype=TRACE)
+
+
+def _in_rows(elements, mesh):
+    """The elements, old ones in their old rows."""
+    left, rows = set(map(tuple, elements.tolist())), mesh.elements.copy()
+    old = list(map(tuple, from_smallest(mesh.elements).tolist()))
+    changed = [t for t, nodes in enumerate(old) if nodes not in left]
+    rows[changed] = np.array(sorted(left.difference(old)), dtype=np.int32).reshape(-1, 3)
+    return rows

@@ -235,7 +235,8 @@ def test_a_criterion_that_returns_nan_does_not_pass_for_one_that_swaps_nothing()
     mesh, bad = problems.mesh("33"), criteria.Criterion("bad", "element", lambda a, b, c: a[:, 0] * NAN)
     with pytest.raises(MeshError) as error:
         swapped(mesh, np.zeros(33), bad)
-    assert str(error.value) == "finite: the cost of element 0 is nan; the criterion must return finite numbers"
+    assert str(error.value) == ("cost: the cost of element 0 is nan; "
+                                "a criterion must return finite numbers of at least 0")
 
 
 def test_a_cost_that_becomes_nan_on_the_way_is_named():
@@ -246,5 +247,54 @@ def test_a_cost_that_becomes_nan_on_the_way_is_named():
         return np.array([0.0 if pair in known else NAN for pair in zip(left[:, 2], right[:, 2], strict=True)])
     with pytest.raises(MeshError) as error:
         swapped(square, [2.0, 0.0, 2.0, 1.0], criteria.Criterion("known", "edge", cost))
-    assert str(error.value) == ("finite: a cost around edge (0, 2) is not finite; "
-                                "the criterion must return finite numbers")
+    assert str(error.value) == ("cost: a cost around edge (0, 2) is negative or not finite; "
+                                "a criterion must return finite numbers of at least 0")
+
+
+@pytest.mark.parametrize("cost, expected", [
+    (lambda a, b, c: a[:, 0] * 0 - 1, "cost: the cost of element 0 is -1.0; "
+                                      "a criterion must return finite numbers of at least 0"),
+    (lambda a, b, c: a, "shape: the criterion returned costs of shape (2, 3) for 2 elements; "
+                        "return one number for each"),
+    (lambda a, b, c: 1.0, "shape: the criterion returned costs of shape () for 2 elements; "
+                          "return one number for each"),
+])
+def test_costs_of_ones_own_are_checked(cost, expected):
+    square = delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])
+    with pytest.raises(MeshError) as error:
+        swapped(square, np.zeros(4), criteria.Criterion("own", "element", cost), norm=1)
+    assert str(error.value) == expected
+
+
+def test_a_result_in_place_of_its_mesh_is_told_apart():
+    mesh = problems.mesh("33")
+    with pytest.raises(MeshError) as error:
+        refined(swapped(mesh, problems.SR1), problems.SR1)
+    assert str(error.value) == "type: a mesh is needed, this is a Swapping; take its .mesh"
+    with pytest.raises(MeshError) as error:
+        quality(mesh.nodes)
+    assert str(error.value) == ("type: a mesh is needed, this is a ndarray; "
+                                "make a meshlib.Mesh or use meshlib.delaunay")
+
+
+def test_criteria_that_depend_on_the_data_ask_for_values():
+    mesh = problems.mesh("33")
+    with pytest.raises(MeshError) as error:
+        criteria.prefers(mesh, mesh)
+    assert str(error.value) == "shape: criterion 'jnd' depends on the data; give values"
+    assert not criteria.prefers(mesh, mesh, criterion="smallest-angle", norm="max")
+
+
+@pytest.mark.parametrize("arguments, hint", [
+    ({"criterion": "JND"}, "did you mean 'jnd'?"), ({"norm": "L2"}, "did you mean 2?"),
+    ({"norm": "2"}, "did you mean 2?"), ({"norm": "Max"}, "did you mean 'max'?")])
+def test_the_nearest_name_is_found_in_any_case(arguments, hint):
+    with pytest.raises(MeshError) as error:
+        swapped(problems.mesh("33"), problems.SR1, **arguments)
+    assert hint in str(error.value)
+
+
+@pytest.mark.parametrize("factor", [1e300, 1e-170])
+def test_values_whose_squares_are_out_of_range_are_refused(factor):
+    with pytest.raises(MeshError, match="measure u in another unit"):
+        swapped(problems.mesh("33"), problems.SR1(*problems.nodes("33").T) * factor)

@@ -288,4 +288,5 @@ def test_costs_that_are_not_finite_are_named(square):
     bad = criteria.Criterion("bad", "element", lambda a, b, c: np.array([0.0, np.nan]))
     with pytest.raises(MeshError) as error:
         marked(square, np.zeros(4), bad, 0.5)
-    assert str(error.value) == "finite: the cost of element 1 is nan; the criterion must return finite numbers"
+    assert str(error.value) == ("cost: the cost of element 1 is nan; "
+                                "a criterion must return finite numbers of at least 0")

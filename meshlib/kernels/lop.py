@@ -112,7 +112,8 @@ def element_cost(code, x, y, corners):
     """How far the smallest or largest angle of an element is from 60 degrees."""
     a, b, c = corners
     p, q, r = corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)
-    return EQUILATERAL - min(p, q, r) if code == SMALLEST_ANGLE else max(p, q, r) - EQUILATERAL
+    excess = EQUILATERAL - min(p, q, r) if code == SMALLEST_ANGLE else max(p, q, r) - EQUILATERAL
+    return max(excess, 0.0)  # not below 0 by rounding
 
 
 @compiled

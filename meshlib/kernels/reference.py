@@ -31,7 +31,7 @@ def swapped(mesh, values, criterion, norm, order, limits, tolerance):
             old, new = (norms.measure(_finite(h, a, b), norm, tolerance[1])
                         for h in local_cost(criterion.cost, points, apex, quad))
             accepted = norms.is_below(new, old, *tolerance)
-            tried.append((sweep, e, a, b, c, d, accepted, np.max(old), np.max(new)))
+            tried.append((sweep, e, a, b, c, d, accepted, *_deciding(old, new)))
             if accepted:
                 _swap(apex, quad)
                 slots[e], swaps, changed = (c, d), swaps + 1, True
@@ -39,10 +39,18 @@ def swapped(mesh, values, criterion, norm, order, limits, tolerance):
 
 
 def _finite(costs, a, b):
-    if np.isfinite(costs).all():
+    if (np.isfinite(costs) & (np.asarray(costs) >= 0)).all():
         return costs
-    raise MeshError("finite", f"a cost around edge ({a}, {b}) is not finite; "
-                    "the criterion must return finite numbers", (a, b))
+    raise MeshError("cost", f"a cost around edge ({a}, {b}) is negative or not finite; "
+                    "a criterion must return finite numbers of at least 0", (a, b))
+
+
+def _deciding(old, new):
+    """The costs that decide: the first that differ in the lexicographic order."""
+    if not isinstance(old, tuple):
+        return old, new
+    differ = (pair for pair in zip(old, new, strict=False) if pair[0] != pair[1])
+    return next(differ, (old[0], new[0]))
 
 
 def _quadrilateral(apex, edge):
