@@ -40,7 +40,7 @@ from .costs import (
 from .errors import MeshError
 from .interpolant import Interpolant
 from .norms import precedes
-from .topology import HEADS, TAILS
+from .topology import quadrilaterals
 
 __all__ = ["Criterion", "costs", "get", "min_error", "names", "plane_gradients", "prefers",
            "register", "unregister"]
@@ -162,13 +162,10 @@ def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
 
 
 def _on_edges(cost, u_h):
-    mesh, points = u_h.mesh, _points(u_h)
+    mesh = u_h.mesh
     inner = np.flatnonzero(~mesh.boundary)
-    t, s = mesh.edge_elements[inner].T
-    k = (mesh.element_edges[t] == inner[:, None]).argmax(axis=1)
-    m = (mesh.element_edges[s] == inner[:, None]).argmax(axis=1)
-    p, q = mesh.elements[t, np.take(TAILS, k)], mesh.elements[t, np.take(HEADS, k)]
-    found = cost(points[p], points[q], points[mesh.elements[t, k]], points[mesh.elements[s, m]])
+    left, p, q, right = _points(u_h)[quadrilaterals(mesh, inner)[0].T]
+    found = cost(p, q, left, right)
     vector = np.zeros(mesh.n_edges)
     vector[inner] = checks.cost_vector(found, len(inner), "inner edge")
     return vector

@@ -5,7 +5,7 @@ from . import checks
 from .errors import MeshError
 from .mesh import Mesh
 from .predicates import incircle, nearly_flat, orientation
-from .topology import HEADS, TAILS, from_smallest
+from .topology import canonical, quadrilaterals
 
 NEW = (0, 3, 2), (3, 0, 1)  # (a, d, c) and (d, a, b) of a quadrilateral (a, b, c, d)
 
@@ -58,7 +58,7 @@ def delaunay(nodes):
     if unused.size:
         raise MeshError("unused node", f"node {unused[0]} is too close to others to be meshed; "
                         "remove it or move it", unused)
-    return Mesh._trusted(nodes, _sorted(elements))
+    return Mesh._trusted(nodes, canonical(elements))
 
 
 def _refuse_collinear(nodes):
@@ -102,7 +102,7 @@ def _longest_edges(mesh, some):
 
 def _unfolded(mesh, edges):
     """Elements after a swap of those edges whose new elements are not flat."""
-    quads, pairs = _quadrilaterals(mesh, edges)
+    quads, pairs = quadrilaterals(mesh, edges)
     good = ~np.any([nearly_flat(mesh.nodes[quads[:, new]]) for new in NEW], axis=0)
     if not good.any():
         raise _nearly_collinear()
@@ -130,7 +130,7 @@ def _flipped_to_delaunay(nodes, elements):
     mesh = Mesh(nodes, elements)
     edges = np.flatnonzero(~mesh.boundary)
     while edges.size:
-        quads, pairs = _quadrilaterals(mesh, edges)
+        quads, pairs = quadrilaterals(mesh, edges)
         wrong = _is_worse(nodes, *quads.T)
         if not wrong.any():
             break
@@ -150,17 +150,6 @@ def _swapped(mesh, quads, pairs):
     return Mesh(mesh.nodes, elements)
 
 
-def _quadrilaterals(mesh, edges):
-    """Nodes (a, b, c, d) around each interior edge b-c, and its elements (a,b,c), (d,c,b)."""
-    pairs = mesh.edge_elements[edges]
-    t, s = pairs.T
-    k = (mesh.element_edges[t] == edges[:, None]).argmax(axis=1)
-    m = (mesh.element_edges[s] == edges[:, None]).argmax(axis=1)
-    a, d = mesh.elements[t, k], mesh.elements[s, m]
-    b, c = mesh.elements[t, np.take(TAILS, k)], mesh.elements[t, np.take(HEADS, k)]
-    return np.column_stack([a, b, c, d]), pairs
-
-
 def _is_worse(nodes, a, b, c, d):
     """Whether b-c is not Delaunay, or tied while a-d has the smallest node number."""
     side = incircle(nodes[a], nodes[b], nodes[c], nodes[d])
@@ -175,9 +164,3 @@ def _independent(quads, pairs, n_elements):
     np.minimum.at(first, pairs, rank[:, None])
     free = (first[pairs] == rank[:, None]).all(axis=1)
     return quads[free], pairs[free]
-
-
-def _sorted(elements):
-    """Elements with their smallest node first, in lexicographic order."""
-    turned = from_smallest(elements)
-    return turned[np.lexsort(turned.T[::-1])]

@@ -88,8 +88,7 @@ class Mesh:
 
     @_derived
     def _canonical_elements(self):
-        turned = topology.from_smallest(self.elements)
-        return turned[np.lexsort(turned.T[::-1])]
+        return topology.canonical(self.elements)
 
     # -- counts ---------------------------------------------------------------
 

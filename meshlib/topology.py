@@ -64,6 +64,23 @@ def edge_numbers(edges, n_nodes, pairs):
     return place
 
 
+def canonical(elements):
+    """Elements with their smallest node first, in lexicographic order."""
+    turned = from_smallest(elements)
+    return turned[np.lexsort(turned.T[::-1])]
+
+
+def quadrilaterals(mesh, edges):
+    """Nodes (a, b, c, d) around each interior edge b-c, and its elements (a, b, c), (d, c, b)."""
+    pairs = mesh.edge_elements[edges]
+    t, s = pairs.T
+    k = (mesh.element_edges[t] == edges[:, None]).argmax(axis=1)
+    m = (mesh.element_edges[s] == edges[:, None]).argmax(axis=1)
+    a, d = mesh.elements[t, k], mesh.elements[s, m]
+    b, c = mesh.elements[t, np.take(TAILS, k)], mesh.elements[t, np.take(HEADS, k)]
+    return np.column_stack([a, b, c, d]), pairs
+
+
 def _refuse_shared_half_edges(elements, place):
     order = np.argsort(place, axis=None, kind="stable")
     again = np.flatnonzero(np.diff(place.ravel()[order]) == 0)
