@@ -6,8 +6,10 @@ import numpy as np
 from . import checks, quadrature
 from .errors import MeshError
 from .location import located
+from .predicates import nearly_flat
 
 DEFAULT_DEGREE = 8
+ROUNDING = 8 * np.finfo(float).eps  # of a coordinate, in the places where a row cuts a side
 FILLED = 1e-9  # how far, relatively, the domain may fall short of its bounding box
 
 
@@ -80,10 +82,24 @@ class Interpolant:
         x : (nx,) ndarray, y : (ny,) ndarray, u : (ny, nx) ndarray
             NaN outside the domain.
         """
+        nx = checks.whole(nx, 2, "nx")
+        ny = nx if ny is None else checks.whole(ny, 2, "ny")
         low, high = self.mesh.nodes.min(axis=0), self.mesh.nodes.max(axis=0)
-        x = np.linspace(low[0], high[0], nx)
-        y = np.linspace(low[1], high[1], nx if ny is None else ny)
-        return x, y, self(x[None, :], y[:, None])
+        x, y = np.linspace(low[0], high[0], nx), np.linspace(low[1], high[1], ny)
+        return x, y, self._raster(low, high, nx, ny)
+
+    def _raster(self, low, high, nx, ny):
+        """Values on the grid from low to high; of common points flat elements decide last."""
+        from .kernels import raster
+        from .kernels.backend import flat
+        step = (high - low) / (nx - 1, ny - 1)
+        slack = raster.SLACK + ROUNDING * (np.abs([low, high]).max(axis=0) / step).max()
+        order = np.argsort(~nearly_flat(self.mesh.corners), kind="stable")
+        grid = flat(np.full(nx * ny, np.nan))
+        raster.filled(grid, nx, ny, *map(float, step), float(slack), flat(order),
+                      flat(self.mesh.elements.astype(np.int64)),
+                      *map(flat, (*(self.mesh.nodes - low).T, self.values, *self.gradients.T)))
+        return np.reshape(grid, (ny, nx))
 
     def l2_error(self, function, rule="trapezium", points=101, degree=DEFAULT_DEGREE):
         """The L2 norm of u - u_h over the domain (section 4.5.1).

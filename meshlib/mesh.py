@@ -140,6 +140,11 @@ class Mesh:
         return topology.neighbours(self.element_edges, self.edge_elements)
 
     @_derived
+    def half_edges(self):
+        """(3 T,), (3 T,), (E,) int64: twins and edges of half-edges, see `topology.half_edges`."""
+        return topology.half_edges(self.element_edges, self.n_edges)
+
+    @_derived
     def boundary(self):
         """(E,) bool: whether the edge lies on the boundary of the domain."""
         return self.edge_elements[:, 1] < 0

@@ -5,13 +5,9 @@ from functools import cached_property
 import numpy as np
 
 from . import checks, criteria, norms
-from .interpolant import gradients
 from .mesh import Mesh
-from .topology import from_smallest
+from .procedure import Limits, Procedure
 
-TRACE = np.dtype([("sweep", np.int32), ("edge", np.int32), ("a", np.int32), ("b", np.int32),
-                  ("c", np.int32), ("d", np.int32), ("accepted", bool),
-                  ("old", np.float64), ("new", np.float64)])
 LARGEST_MIN_ANGLE = 60.0
 JUST_MET = 1 - 1e-10  # a limit that is met but for rounding is met
 
@@ -37,7 +33,8 @@ class Swapping:
     tried: int
     cost_before: float
     cost_after: float
-    _run: object = field(repr=False, compare=False)
+    _procedure: Procedure = field(repr=False, compare=False)
+    _order: np.ndarray = field(repr=False, compare=False)
 
     @cached_property
     def trace(self):
@@ -46,17 +43,10 @@ class Swapping:
         Fields: ``sweep``, ``edge`` (its number in the start mesh), the old edge
         ``a``-``b``, the new edge ``c``-``d``, ``accepted``, and the local costs
         ``old`` and ``new`` as the norm compares them (squared for L2; the first that
-        differ in the lexicographic order).  The procedure is deterministic, so the trace is made by running it again.
+        differ in the lexicographic order).  The procedure is deterministic, so the trace is
+        made by running it again.
         """
-        return self._run(trace=True)[-1]
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Geometric limits of section 6.1 on the elements that a swap creates."""
-
-    angle: float = 0.0  # radians
-    area: float = 0.0
+        return self._procedure.run(self._order, trace=True).trace
 
 
 def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, min_area=None,
@@ -127,21 +117,23 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     >>> result.swaps, result.sweeps
     (56, 2)
     """
+    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance)
+    mesh, order = procedure.mesh, checks.permutation(order, mesh.n_edges)
+    before = procedure.cost(mesh)
+    done = procedure.run(order)
+    result = _swapped_mesh(mesh, done.elements) if done.swaps else mesh
+    return Swapping(result, done.swaps, done.sweeps, done.tried, before, procedure.cost(result),
+                    procedure, order)
+
+
+def prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance):
+    """The procedure with these arguments, checked as for `swapped`, for any edge order."""
     mesh = checks.a_mesh(mesh)
     values = checks.nodal_values(mesh, values)
     criterion, norm = criteria.get(criterion), norms.checked(norm)
-    order = checks.permutation(order, mesh.n_edges)
     limits = _limits(min_angle, min_area)
     tolerance = _tolerance(tolerance, norm, criterion.scale(mesh, values))
-    procedure = _compiled if criterion.code >= 0 and norm in _NORM_CODES else _plain
-
-    def run(trace):
-        return procedure(mesh, values, criterion, norm, order, limits, tolerance, trace)
-    before = norms.norm_of(criterion.costs(mesh, values), norm)
-    elements, swaps, sweeps, tried, _ = run(trace=False)
-    result = _swapped_mesh(mesh, elements) if swaps else mesh
-    after = norms.norm_of(criterion.costs(result, values), norm)
-    return Swapping(result, swaps, sweeps, tried, before, after, run)
+    return Procedure(mesh, values, criterion, norm, limits, tolerance)
 
 
 def _swapped_mesh(mesh, elements):
@@ -162,62 +154,3 @@ def _tolerance(tolerance, norm, scale):
     if tolerance is None:
         return relative, absolute
     return relative, checks.number(tolerance, "tolerance", 0, np.inf, "a finite gain of at least 0")
-
-
-_NORM_CODES = {1: 1, 2: 2, "max": 0}
-
-
-def _compiled(mesh, values, criterion, norm, order, limits, tolerance, trace):
-    from .kernels import lop
-    from .kernels.backend import flat
-    x, y = (flat(v) for v in mesh.nodes.T)
-    state = _state(mesh, values, flat)
-    log, costs = (flat(np.zeros(trace * n * mesh.n_edges, dtype=t)) for n, t in ((6, np.int64), (2, float)))
-    rows, totals, order = [], [], flat(order)
-    while not totals or totals[-1][0]:
-        totals.append(lop.sweep(order, criterion.code, _NORM_CODES[norm], *tolerance, limits.angle,
-                                2 * limits.area, x, y, flat(values), *state, log, costs))
-        rows.append(_rows(len(totals), log, costs, totals[-1][1] if trace else 0))
-    swaps, tried = np.sum(totals, axis=0)
-    elements = np.reshape(state[0], (-1, 3)).astype(np.int32)
-    return elements, int(swaps), len(totals), int(tried), np.concatenate(rows)
-
-
-def _state(mesh, values, flat):
-    """Elements, twins, slots, halves, gradients and doubled areas, as the kernel wants them."""
-    numbers = np.arange(3 * mesh.n_elements)
-    slot = mesh.element_edges.astype(np.int64).ravel()
-    half = np.empty(mesh.n_edges, dtype=np.int64)
-    half[slot] = numbers
-    twin = np.full(len(numbers), -1, dtype=np.int64)
-    others = np.flatnonzero(half[slot] != numbers)
-    twin[others], twin[half[slot[others]]] = half[slot[others]], others
-    turned = Mesh._trusted(mesh.nodes, from_smallest(mesh.elements))  # as the kernel computes
-    g = gradients(turned.corners, values[turned.elements])
-    return tuple(flat(v) for v in (mesh.elements.astype(np.int64), twin, slot, half,
-                                   g[:, 0], g[:, 1], 2 * turned.areas))
-
-
-def _rows(sweep, log, costs, count):
-    rows = np.zeros(count, dtype=TRACE)
-    rows["sweep"] = sweep
-    table = np.reshape(log[:6 * count], (-1, 6))
-    for name, column in zip(("edge", "a", "b", "c", "d", "accepted"), table.T, strict=True):
-        rows[name] = column
-    rows["old"], rows["new"] = np.reshape(costs[:2 * count], (-1, 2)).T
-    return rows
-
-
-def _plain(mesh, values, criterion, norm, order, limits, tolerance, trace):
-    from .kernels import reference
-    elements, swaps, sweeps, tried = reference.swapped(mesh, values, criterion, norm, order, limits, tolerance)
-    return _in_rows(elements, mesh), swaps, sweeps, len(tried), np.array(tried, dtype=TRACE)
-
-
-def _in_rows(elements, mesh):
-    """The elements, old ones in their old rows."""
-    left, rows = set(map(tuple, elements.tolist())), mesh.elements.copy()
-    old = list(map(tuple, from_smallest(mesh.elements).tolist()))
-    changed = [t for t, nodes in enumerate(old) if nodes not in left]
-    rows[changed] = np.array(sorted(left.difference(old)), dtype=np.int32).reshape(-1, 3)
-    return rows

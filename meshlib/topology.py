@@ -47,6 +47,22 @@ def neighbours(element_edges, edge_elements):
     return np.where(pairs[..., 0] == own, pairs[..., 1], pairs[..., 0])
 
 
+def half_edges(element_edges, n_edges):
+    """Twin and edge of each half-edge, and one half-edge of each edge.
+
+    Half-edge 3 t + k is the side of element t opposite its node k; its twin is the same
+    side seen from the neighbour, or -1.
+    """
+    numbers = np.arange(element_edges.size)
+    slot = element_edges.astype(np.int64).ravel()
+    half = np.empty(n_edges, dtype=np.int64)
+    half[slot] = numbers
+    twin = np.full(len(numbers), -1, dtype=np.int64)
+    others = np.flatnonzero(half[slot] != numbers)
+    twin[others], twin[half[slot[others]]] = half[slot[others]], others
+    return twin, slot, half
+
+
 def from_smallest(elements):
     """Elements turned so that the smallest node number comes first."""
     first = elements.argmin(axis=1)[:, None]

@@ -97,7 +97,7 @@ def test_view_holds_the_state_as_plain_data():
 
 
 @pytest.mark.parametrize("name, value", [
-    ("problem", "SR3"), ("nodes", "81"), ("criterion", "abn"), ("criterion", NO_SWAPS),
+    ("problem", "SR3"), ("nodes", "81"), ("criterion", "dfp"), ("criterion", NO_SWAPS),
     ("norm", "lexicographic"), ("min_angle", 20), ("fraction", 0.5)])
 def test_view_follows_each_control(name, value):
     explorer = Explorer()

@@ -12,14 +12,23 @@ the same side seen from the neighbour, or -1; ``slot[h]`` is the number of its e
            \ /                  \|/          n1 .. n4: the elements beyond
             d                    d
 """
-from math import atan2, sqrt
+from math import sqrt
 
 from .backend import compiled
+from .costs import (
+    DLP,
+    SMALLEST_ANGLE,
+    combined,
+    edge_cost,
+    element_cost,
+    from_smallest,
+    plane,
+    refused,
+    side_cost,
+    turn,
+)
 
-JND, ABN, DLP, DFP, SMALLEST_ANGLE, LARGEST_ANGLE = range(6)
-SUM, SQUARES, MAXIMUM = 1, 2, 0
-FLAT = 1e-12  # relative area below which a quadrilateral is not strictly convex
-EQUILATERAL = 1.0471975511965976  # pi / 3
+UNKNOWN, REFUSED, TRIED = -1, 0, 1  # what is known of an edge: a swap was refused, or tried in vain
 
 
 @compiled
@@ -32,122 +41,6 @@ def after(h):
 def before(h):
     """The previous half-edge around the same element."""
     return h - 1 if h % 3 else h + 2
-
-
-@compiled
-def from_smallest(a, b, c):
-    """The element turned so that its smallest node number comes first.
-
-    What is computed from it then depends on the element alone, to the last bit, and
-    not on the swaps that led to it; the proof of termination rests on that.
-    """
-    if b < a and b < c:
-        return b, c, a
-    if c < a and c < b:
-        return c, a, b
-    return a, b, c
-
-
-@compiled
-def turn(x, y, corners):
-    """Twice the signed area of an element, or 0 if it is within rounding of flat."""
-    a, b, c = corners
-    left = (x[b] - x[a]) * (y[c] - y[a])
-    right = (x[c] - x[a]) * (y[b] - y[a])
-    area = left - right
-    return area if abs(area) > FLAT * (abs(left) + abs(right)) else 0.0
-
-
-@compiled
-def plane(x, y, u, corners, area):
-    """Gradient of the plane over an element, by differences from its first node."""
-    a, b, c = corners
-    bx, by, bu = x[b] - x[a], y[b] - y[a], u[b] - u[a]
-    cx, cy, cu = x[c] - x[a], y[c] - y[a], u[c] - u[a]
-    return (bu * cy - cu * by) / area, (bx * cu - cx * bu) / area
-
-
-@compiled
-def edge_cost(code, g, A, h, B, length):
-    """Cost of an edge between planes of gradient g and h over areas A/2 and B/2.
-
-    The jump is parallel to the edge's normal, so |g - h| is the JND; it is also the
-    rate at which one plane misses the other's opposite node, at the distance area
-    over length.
-    """
-    dx, dy = g[0] - h[0], g[1] - h[1]
-    jump = sqrt(dx * dx + dy * dy)
-    if code == JND:
-        return jump
-    if code == ABN:
-        skew = g[0] * h[1] - g[1] * h[0]
-        return atan2(sqrt(dx * dx + dy * dy + skew * skew), 1 + g[0] * h[0] + g[1] * h[1])
-    over, under = jump * B / length, jump * A / length
-    if code == DFP:
-        over /= sqrt(1 + g[0] * g[0] + g[1] * g[1])
-        under /= sqrt(1 + h[0] * h[0] + h[1] * h[1])
-    return sqrt(over * over + under * under)
-
-
-@compiled
-def side_cost(code, x, y, g, A, beyond, a, b, gx, gy, area):
-    """Cost of the outer edge a-b of the quadrilateral; 0 on the boundary."""
-    if beyond < 0:
-        return 0.0
-    length = 1.0
-    if code >= DLP:
-        length = sqrt((x[a] - x[b]) ** 2 + (y[a] - y[b]) ** 2)
-    return edge_cost(code, g, A, (gx[beyond], gy[beyond]), area[beyond], length)
-
-
-@compiled
-def corner(x, y, a, b, c):
-    """The angle at a between b and c."""
-    ux, uy, vx, vy = x[b] - x[a], y[b] - y[a], x[c] - x[a], y[c] - y[a]
-    return atan2(abs(ux * vy - uy * vx), ux * vx + uy * vy)
-
-
-@compiled
-def element_cost(code, x, y, corners):
-    """How far the smallest or largest angle of an element is from 60 degrees."""
-    a, b, c = corners
-    p, q, r = corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)
-    excess = EQUILATERAL - min(p, q, r) if code == SMALLEST_ANGLE else max(p, q, r) - EQUILATERAL
-    return max(excess, 0.0)  # not below 0 by rounding
-
-
-@compiled
-def combined(norm, p, q, r, s, t):
-    """What the norm compares: the sum, the sum of squares, or the maximum."""
-    if norm == SUM:
-        return p + q + r + s + t
-    if norm == SQUARES:
-        return p * p + q * q + r * r + s * s + t * t
-    return max(p, q, r, s, t)
-
-
-@compiled
-def five_edges(code, norm, x, y, p, q, r, s, g, A, h, B, beyond, gx, gy, area):
-    """Local cost of the diagonal p-q: itself and the sides of its quadrilateral.
-
-    The element to the left of p-q has the opposite node r, gradient g and area A/2;
-    the one to the right s, h and B/2; beyond q-r, r-p, p-s, s-q lie ``beyond``.
-    """
-    length = 1.0
-    if code >= DLP:
-        length = sqrt((x[p] - x[q]) ** 2 + (y[p] - y[q]) ** 2)
-    return combined(norm, edge_cost(code, g, A, h, B, length),
-                    side_cost(code, x, y, g, A, beyond[0], q, r, gx, gy, area),
-                    side_cost(code, x, y, g, A, beyond[1], r, p, gx, gy, area),
-                    side_cost(code, x, y, h, B, beyond[2], p, s, gx, gy, area),
-                    side_cost(code, x, y, h, B, beyond[3], s, q, gx, gy, area))
-
-
-@compiled
-def too_sharp(x, y, corners, min_angle):
-    """Whether an element has an angle below the limit (section 6.1)."""
-    a, b, c = corners
-    return min(corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)) < min_angle
 
 
 @compiled
@@ -184,14 +77,6 @@ def flip(h, j, c, d, element, twin, slot, half):
 
 
 @compiled
-def refused(x, y, corners, area, min_angle, min_area):
-    """Whether an element would be flat or break a limit of section 6.1."""
-    if area <= 0 or area < min_area:
-        return True
-    return min_angle > 0 and too_sharp(x, y, corners, min_angle)
-
-
-@compiled
 def angle_costs(code, norm, x, y, a, b, c, d, cad, dbc):
     """Cost of the elements at a-b and of those at c-d instead."""
     p = element_cost(code, x, y, from_smallest(c, a, b))
@@ -201,17 +86,54 @@ def angle_costs(code, norm, x, y, a, b, c, d, cad, dbc):
 
 
 @compiled
-def jump_costs(code, norm, x, y, a, b, c, d, h, j, g, A, k, B, twin, gx, gy, area):
-    """Cost of the five edges around a-b, and of those around c-d instead.
+def around(h, j, slot):
+    """The five edges of the quadrilateral: a-b, b-c, c-a, a-d, d-b."""
+    return slot[h], slot[after(h)], slot[before(h)], slot[after(j)], slot[before(j)]
 
-    The new elements have the gradients g, k and the areas A/2, B/2.
+
+@compiled
+def known_cost(norm, five, cost):
+    """Local cost of a-b from the costs of its five edges."""
+    e, bc, ca, ad, db = five
+    return combined(norm, cost[e], cost[bc], cost[ca], cost[ad], cost[db])
+
+
+@compiled
+def new_costs(code, x, y, a, b, c, d, beyond, g, A, k, B, gx, gy, area):
+    """Costs of c-d, b-c, c-a, a-d, d-b after the swap.
+
+    The elements (c, a, d) and (d, b, c) have the gradients g, k and the areas A/2, B/2.
     """
-    t, s = h // 3, j // 3
-    n1, n2, n3, n4 = outer_elements(h, j, twin)
-    old = five_edges(code, norm, x, y, a, b, c, d, (gx[t], gy[t]), area[t],
-                     (gx[s], gy[s]), area[s], (n1, n2, n3, n4), gx, gy, area)
-    new = five_edges(code, norm, x, y, d, c, a, b, g, A, k, B, (n2, n3, n4, n1), gx, gy, area)
-    return old, new
+    bc, ca, ad, db = beyond
+    length = 1.0
+    if code >= DLP:
+        length = sqrt((x[c] - x[d]) ** 2 + (y[c] - y[d]) ** 2)
+    return (edge_cost(code, g, A, k, B, length),
+            side_cost(code, x, y, k, B, bc, b, c, gx, gy, area),
+            side_cost(code, x, y, g, A, ca, c, a, gx, gy, area),
+            side_cost(code, x, y, g, A, ad, a, d, gx, gy, area),
+            side_cost(code, x, y, k, B, db, d, b, gx, gy, area))
+
+
+@compiled
+def first_costs(code, x, y, element, twin, half, gx, gy, area, cost):
+    """Set the cost of every edge of the start mesh."""
+    for e in range(len(half)):
+        h = half[e]
+        t, beyond = h // 3, twin[h] // 3 if twin[h] >= 0 else -1
+        a, b = element[after(h)], element[before(h)]
+        cost[e] = side_cost(code, x, y, (gx[t], gy[t]), area[t], beyond, a, b, gx, gy, area)
+
+
+@compiled
+def unsettle(five, twin, slot, half, settled):
+    """Mark the edges whose local cost the swap of the first of five may have changed."""
+    settled[five[0]] = UNKNOWN
+    for e in five[1:]:
+        settled[e] = UNKNOWN
+        for h in (half[e], twin[half[e]]):
+            if h >= 0:
+                settled[slot[after(h)]] = settled[slot[before(h)]] = UNKNOWN
 
 
 @compiled
@@ -224,14 +146,21 @@ def record(log, costs, row, e, a, b, c, d, accepted, old, new):
 
 @compiled
 def sweep(order, code, norm, relative, absolute, min_angle, min_area,
-          x, y, u, element, twin, slot, half, gx, gy, area, log, costs):
+          x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs):
     """Inspect every edge once, in order, and swap those that are not locally optimal.
 
-    Returns the number of swaps and of swaps tried; with room in ``log`` and
-    ``costs`` every tried swap is recorded there.
+    An edge around which nothing has changed since it was last inspected is passed
+    over, for it would only be kept again.  Returns the number of swaps and of swaps
+    tried; with room in ``log`` and ``costs`` every tried swap is recorded there, and
+    no edge is passed over.
     """
     swaps = tried = 0
+    traced = len(log) > 0
     for e in order:
+        if settled[e] != UNKNOWN and not traced:
+            tried += settled[e]
+            continue
+        settled[e] = REFUSED
         h = half[e]
         j = twin[h]
         if j < 0:
@@ -241,13 +170,17 @@ def sweep(order, code, norm, relative, absolute, min_angle, min_area,
         A, B = turn(x, y, cad), turn(x, y, dbc)
         if refused(x, y, cad, A, min_angle, min_area) or refused(x, y, dbc, B, min_angle, min_area):
             continue
-        g, k = plane(x, y, u, cad, A), plane(x, y, u, dbc, B)
+        settled[e] = TRIED
+        g, k, five = plane(x, y, u, cad, A), plane(x, y, u, dbc, B), around(h, j, slot)
         if code >= SMALLEST_ANGLE:
+            fresh = (0.0, 0.0, 0.0, 0.0, 0.0)
             old, new = angle_costs(code, norm, x, y, a, b, c, d, cad, dbc)
         else:
-            old, new = jump_costs(code, norm, x, y, a, b, c, d, h, j, g, A, k, B, twin, gx, gy, area)
+            fresh = new_costs(code, x, y, a, b, c, d, outer_elements(h, j, twin), g, A, k, B, gx, gy, area)
+            old = known_cost(norm, five, cost)
+            new = combined(norm, fresh[0], fresh[2], fresh[3], fresh[4], fresh[1])
         accepted = new < old * (1 - relative) - absolute
-        if len(log) > 0:
+        if traced:
             record(log, costs, tried, e, a, b, c, d, accepted, old, new)
         tried += 1
         if accepted:
@@ -255,5 +188,20 @@ def sweep(order, code, norm, relative, absolute, min_angle, min_area,
             t, s = h // 3, j // 3
             gx[t], gy[t], area[t] = g[0], g[1], A
             gx[s], gy[s], area[s] = k[0], k[1], B
+            cost[five[0]], cost[five[1]], cost[five[2]], cost[five[3]], cost[five[4]] = fresh
+            unsettle(five, twin, slot, half, settled)
             swaps += 1
     return swaps, tried
+
+
+@compiled
+def optimised(order, code, norm, relative, absolute, min_angle, min_area,
+              x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs):
+    """Sweep until nothing is swapped; the numbers of swaps, of sweeps and of swaps tried."""
+    swaps = sweeps = tried = 0
+    changed = True
+    while changed:
+        found = sweep(order, code, norm, relative, absolute, min_angle, min_area,
+                      x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs)
+        swaps, sweeps, tried, changed = swaps + found[0], sweeps + 1, tried + found[1], found[0] > 0
+    return swaps, sweeps, tried

@@ -1,18 +1,27 @@
-"""The scoreboard on the command line: ``python -m meshlib.thesis [--json]``."""
+"""The scoreboard on the command line: ``python -m meshlib.thesis [--json] [--check]``."""
 import argparse
 import json
+import sys
 
 from . import scoreboard
 
 
 def main(arguments=None):
-    """Print every printed number beside ours, as a table or as JSON."""
+    """Print every printed number beside ours; returns the exit status."""
     parser = argparse.ArgumentParser(prog="python -m meshlib.thesis", description=scoreboard.__doc__)
     parser.add_argument("--json", action="store_true", help="print a JSON list instead of a table")
+    parser.add_argument("--check", action="store_true",
+                        help="verify every certificate twice; fail if a verdict is worse than on record")
+    parser.add_argument("--record", action="store_true", help="put these verdicts on record")
     chosen = parser.parse_args(arguments)
     board = scoreboard.lines()
+    if chosen.record:
+        scoreboard.record(board)
+    faults = scoreboard.faults(board) if chosen.check else []
     print(json.dumps(scoreboard.as_json(board), indent=1) if chosen.json else scoreboard.as_text(board))
+    print(*faults, sep="\n", end="\n" if faults else "", file=sys.stderr)
+    return 1 if faults else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

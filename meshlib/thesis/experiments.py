@@ -4,20 +4,18 @@ An experiment is a start mesh, a function and an operation.  Most are determinis
 those whose printed numbers depend on the edge order and on rounding noise read both
 from a certificate, a file of explicit data.
 """
-import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from importlib.resources import files
 
-import numpy as np
-
-from .. import Interpolant, Mesh, problems, quality, refined, smoothed, swapped
+from .. import Interpolant, Mesh, problems, refined, smoothed, swapped
 from ..checks import choice
+from . import certificates
+from .measures import measured
 
-GRID_POINTS = 101  # the tables match this grid, not the 200 x 200 of section 4.5.1
 SHARE = 0.2
 SMALLEST_ANGLE = 8.0
+NATURAL = "edges in natural order"
 
 DETERMINISTIC, CERTIFIED, SEARCHED = "deterministic", "certificate", "none"
 
@@ -37,8 +35,10 @@ class Experiment:
         In one line, for people.
     function : str
         Name of u in `meshlib.problems`, empty where none is needed.
-    certificate : str
-        File in ``meshlib/thesis/certificates``, empty if deterministic.
+    certified : bool
+        Whether order and perturbation come from the certificate of the same key.
+    shuffled : bool
+        Whether the thesis shuffled the edges, so that no natural order is meant.
     """
 
     key: str
@@ -46,7 +46,8 @@ class Experiment:
     operate: Callable
     recipe: str
     function: str = ""
-    certificate: str = ""
+    certified: bool = False
+    shuffled: bool = False
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Result:
     record : object
         What the operation returned.
     kind : {"deterministic", "certificate", "none"}
-        ``"none"`` if the certificate is not known: the canonical order stands in.
+        ``"none"`` if the certificate is not known: the natural order stands in.
     """
 
     experiment: Experiment
@@ -78,17 +79,7 @@ class Result:
     @cached_property
     def measures(self):
         """Every number the tables print: (measure, statistic) -> value."""
-        found, mean, largest = {}, self.quality.mean, self.quality.max
-        for name in mean:
-            found[name, "mean"], found[name, "max"] = mean[name], largest[name]
-        if self.function:
-            found["l2_error", ""] = self.interpolant.l2_error(self.function, points=GRID_POINTS)
-        return found
-
-    @cached_property
-    def quality(self):
-        """Geometric quality of the mesh."""
-        return quality(self.mesh)
+        return measured(self.mesh, self.function)
 
     @cached_property
     def interpolant(self):
@@ -113,10 +104,25 @@ def _start(nodes, function=""):
     return Experiment(key, nodes, lambda mesh, u, order: Unchanged(mesh), "the start mesh", function)
 
 
-def _swap(key, function, nodes, criterion, norm, min_angle=None, certificate="", recipe="canonical order"):
-    def operate(mesh, u, order, tolerance=None):
-        return swapped(mesh, u, criterion, norm, order, min_angle, tolerance=tolerance)
-    return Experiment(key, nodes, operate, f"{criterion.upper()}-L{norm}, {recipe}", function, certificate)
+@dataclass(frozen=True)
+class Swap:
+    """The operation of edge swapping, with its arguments open to view."""
+
+    criterion: str
+    norm: int
+    min_angle: float = None
+
+    def __call__(self, mesh, u, order):
+        return swapped(mesh, u, self.criterion, self.norm, order, self.min_angle)
+
+    @property
+    def title(self):
+        """For people, for example ``"JND-L2"``."""
+        return f"{self.criterion.upper()}-L{self.norm}"
+
+
+def _swap(key, function, nodes, swap, recipe, **flags):
+    return Experiment(key, nodes, swap, f"{swap.title}, {recipe}", function, **flags)
 
 
 def _refine(key, nodes, mark, recipe, ties="first"):
@@ -126,9 +132,9 @@ def _refine(key, nodes, mark, recipe, ties="first"):
     return Experiment(key, nodes, operate, recipe, "SR1")
 
 
-def _certified(key, function, nodes, criterion, norm):
-    return _swap(key, function, nodes, criterion, norm, certificate=f"{key}.json",
-                 recipe="order and perturbation of a certificate")
+def _certified(key, function, nodes, criterion, norm, shuffled=False):
+    recipe = f"order and perturbation of certificates/{key}.json"
+    return _swap(key, function, nodes, Swap(criterion, norm), recipe, certified=True, shuffled=shuffled)
 
 
 EXPERIMENTS = {e.key: e for e in (
@@ -142,9 +148,9 @@ EXPERIMENTS = {e.key: e for e in (
     _certified("SR1-33-ABN-L1", "SR1", "33", "abn", 1),
     _certified("SR2-33-ABN-L1", "SR2", "33", "abn", 1),
     _certified("DD1-33-refined-ABN-L2", "DD1", "33-refined", "abn", 2),
-    _certified("DD1-33-refined-reordered", "DD1", "33-refined", "abn", 2),
-    _swap("SR3-81-8-degrees", "SR3", "81", "abn", 2, SMALLEST_ANGLE,
-          recipe="canonical order, no new angle below 8 degrees"),
+    _certified("DD1-33-refined-reordered", "DD1", "33-refined", "abn", 2, shuffled=True),
+    _swap("SR3-81-8-degrees", "SR3", "81", Swap("abn", 2, SMALLEST_ANGLE),
+          f"{NATURAL}, no new angle below 8 degrees"),
     _refine("SR1-81-by-edge", "81", "edge", "elements at the worst edges until 20 % are marked"),
     _refine("SR1-33-by-edge", "33", "edge", "elements at the worst edges until 20 % are marked"),
     _refine("SR1-81-by-element", "81", "element", "worst 20 % by mean of edge costs"),
@@ -180,25 +186,30 @@ def run(key):
     """
     experiment = EXPERIMENTS[choice(key, tuple(EXPERIMENTS), "experiment")]
     start = problems.mesh(experiment.nodes)
-    u, extra, kind = problems.functions.get(experiment.function), {}, DETERMINISTIC
-    order = problems.order(experiment.nodes)
-    if experiment.certificate:
-        data = certificate(experiment.certificate)
-        kind = CERTIFIED if data else SEARCHED
-        order, u, extra = _as_certified(start, u, order, data) if data else (order, u, {})
-    record = experiment.operate(start, u, order, **extra)
-    return Result(experiment, start, record.mesh, record, kind)
+    certificate = certificates.load(key) if experiment.certified else None
+    if not certificate:
+        return Result(experiment, start, *_natural(experiment, start),
+                      SEARCHED if experiment.certified else DETERMINISTIC)
+    record = certificate.swapped()
+    return Result(experiment, start, record.mesh, record, CERTIFIED)
 
 
 @cache
-def certificate(name):
-    """The data of a certificate, or None if there is no such file."""
-    file = files(__package__) / "certificates" / name
-    return json.loads(file.read_text()) if file.is_file() else None
+def natural(key):
+    """The same in a natural order of the edges and on the data as they are.
+
+    None if that is what `run` does, or if the thesis shuffled the edges.
+    """
+    experiment = EXPERIMENTS[choice(key, tuple(EXPERIMENTS), "experiment")]
+    if not experiment.certified or experiment.shuffled:
+        return None
+    plain = replace(experiment, certified=False, recipe=f"{experiment.operate.title}, {NATURAL}")
+    start = problems.mesh(experiment.nodes)
+    return Result(plain, start, *_natural(plain, start), DETERMINISTIC)
 
 
-def _as_certified(start, u, order, data):
-    """Edge order, perturbed nodal values and tolerance of a certificate."""
-    values = u(*start.nodes.T)
-    values[data["nodes"]] += np.array(data["perturbation"])
-    return np.array(data["order"]), values, {"tolerance": data["tolerance"]}
+def _natural(experiment, start):
+    """Mesh and record of an experiment in the natural order of the edges."""
+    u = problems.functions.get(experiment.function)
+    record = experiment.operate(start, u, problems.order(experiment.nodes))
+    return record.mesh, record

@@ -1,9 +1,12 @@
 """Every printed number against ours: the verdicts, counted from computed values."""
+import json
 from collections import Counter
 from dataclasses import asdict, dataclass
+from importlib.resources import files
 
-from . import experiments, printed
+from . import certificates, experiments, printed
 
+RECORD = files(__package__) / "verdicts.json"
 VERDICTS = ("exact", "reachable", "misprint", "open")
 
 
@@ -43,8 +46,17 @@ def verdict(number, value, kind):
 
 
 def line(number):
-    """Recompute one printed number."""
-    result = experiments.run(number.experiment)
+    """Recompute one printed number, without a certificate if that gives it."""
+    found = [_judged(number, result) for result in _results(number.experiment)]
+    return min(found, key=lambda entry: VERDICTS.index(entry.verdict))
+
+
+def _results(key):
+    """What is computed for an experiment: by its certificate, and in natural order."""
+    return [result for result in (experiments.run(key), experiments.natural(key)) if result]
+
+
+def _judged(number, result):
     value = result.measures[number.measure, number.statistic]
     return Line(number.id, number.table, number.row, number.column, number.text, value,
                 verdict(number, value, result.kind), result.experiment.recipe)
@@ -80,7 +92,40 @@ def as_json(board):
 
 def as_text(board):
     """The lines as a table of plain text, closed by the counts."""
-    rows = [f"{'id':<44} {'printed':>9} {'reproduced':>12}  verdict"]
-    rows += [f"{e.id:<44} {e.printed:>9} {printed.digits(e.reproduced, e.printed, 2):>12}  {e.verdict}"
-             for e in board]
+    rows = [f"{'id':<40} {'printed':>8} {'reproduced':>10}  {'verdict':<9}  recipe"]
+    rows += [f"{e.id:<40} {e.printed:>8} {printed.digits(e.reproduced, e.printed, 2):>10}  "
+             f"{e.verdict:<9}  {e.recipe}" for e in board]
     return "\n".join([*rows, "", summary(board)])
+
+
+# -- against the record -----------------------------------------------------------------
+
+
+def recorded():
+    """The verdicts on record: id -> verdict."""
+    return json.loads(RECORD.read_text())
+
+
+def record(board):
+    """Put the verdicts on record."""
+    RECORD.write_text(json.dumps({entry.id: entry.verdict for entry in board}, indent=1) + "\n")
+
+
+def faults(board):
+    """What is worse than the record, and what is wrong with a certificate, a sentence for each.
+
+    Parameters
+    ----------
+    board : list of Line
+
+    Returns
+    -------
+    list of str
+    """
+    known = recorded()
+    found = [f"{e.id} is {e.verdict}, on record is {known[e.id]}" for e in board
+             if VERDICTS.index(e.verdict) > VERDICTS.index(known[e.id])]
+    found += [f"{key} is on record and was not computed" for key in known.keys() - {e.id for e in board}]
+    for name in certificates.names():
+        found += [f"certificate {name}: {fault}" for fault in certificates.load(name).faults()]
+    return found

@@ -66,7 +66,7 @@ def table_6_2():
 
 def in_text(section):
     """A number that the thesis gives in the text of a section, ``"5.3.2"`` or ``"6.2"``."""
-    return _markdown(_grid(HEAD, _rows({"6.2": "6.2-text"}.get(section, section))))
+    return markdown(grid(HEAD, _rows({"6.2": "6.2-text"}.get(section, section))))
 
 
 def appendix_a():
@@ -77,7 +77,7 @@ def appendix_a():
             for n, x, y, fx, fy in zip(*columns, strict=True)]
     rows += [" | " * 4] * (2 * NODES_PER_COLUMN - len(rows))
     pairs = zip(rows[:NODES_PER_COLUMN], rows[NODES_PER_COLUMN:], strict=True)
-    return _markdown(_grid(("Node", "$x$", "$y$", "$x$, Franke", "$y$, Franke") * 2, pairs))
+    return markdown(grid(("Node", "$x$", "$y$", "$x$, Franke", "$y$, Franke") * 2, pairs))
 
 
 def scoreboard_counts():
@@ -85,7 +85,7 @@ def scoreboard_counts():
     rows = [(printed.heading(table), *_cells(scoreboard.lines(table))) for table in printed.TABLES]
     rows.append(("**All**", *_cells(scoreboard.lines())))
     head = ("", "Printed numbers", *(v.capitalize() for v in scoreboard.VERDICTS))
-    return _markdown(_grid(head, rows))
+    return markdown(grid(head, rows))
 
 
 def _cells(board):
@@ -93,9 +93,9 @@ def _cells(board):
 
 
 def _numbered(table):
-    body = _grid(HEAD, _rows(table))
+    body = grid(HEAD, _rows(table))
     name = f"tab-{table.replace('.', '-')}"
-    return _markdown(f"```{{table}} {CAPTIONS[table]}\n:name: {name}\n:align: center\n\n{body}\n```")
+    return markdown(f"```{{table}} {CAPTIONS[table]}\n:name: {name}\n:align: center\n\n{body}\n```")
 
 
 def _rows(table):
@@ -123,12 +123,14 @@ def _verdicts(lines):
     return ", ".join(verdicts if len(set(verdicts)) > 1 else verdicts[:1])
 
 
-def _grid(head, rows):
+def grid(head, rows):
+    """A table in Markdown."""
     lines = [head, ("---",) * len(head), *rows]
     return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
 
 
-def _markdown(text):
+def markdown(text):
+    """The text as a notebook shows it."""
     try:
         from IPython.display import Markdown
     except ImportError:

@@ -1,0 +1,120 @@
+"""Costs of single edges and elements, and what makes an element inadmissible.
+
+Everything here is computed from the nodes of an element in an order that does not
+depend on the swaps before, so that it is the same number whenever the element occurs.
+"""
+from math import atan2, sqrt
+
+from .backend import compiled
+
+JND, ABN, DLP, DFP, SMALLEST_ANGLE, LARGEST_ANGLE = range(6)
+SUM, SQUARES, MAXIMUM = 1, 2, 0
+FLAT = 1e-12  # relative area below which a quadrilateral is not strictly convex
+EQUILATERAL = 1.0471975511965976  # pi / 3
+
+
+@compiled
+def from_smallest(a, b, c):
+    """The element turned so that its smallest node number comes first.
+
+    What is computed from it then depends on the element alone, to the last bit, and
+    not on the swaps that led to it; the proof of termination rests on that.
+    """
+    if b < a and b < c:
+        return b, c, a
+    if c < a and c < b:
+        return c, a, b
+    return a, b, c
+
+
+@compiled
+def turn(x, y, corners):
+    """Twice the signed area of an element, or 0 if it is within rounding of flat."""
+    a, b, c = corners
+    left = (x[b] - x[a]) * (y[c] - y[a])
+    right = (x[c] - x[a]) * (y[b] - y[a])
+    area = left - right
+    return area if abs(area) > FLAT * (abs(left) + abs(right)) else 0.0
+
+
+@compiled
+def plane(x, y, u, corners, area):
+    """Gradient of the plane over an element, by differences from its first node."""
+    a, b, c = corners
+    bx, by, bu = x[b] - x[a], y[b] - y[a], u[b] - u[a]
+    cx, cy, cu = x[c] - x[a], y[c] - y[a], u[c] - u[a]
+    return (bu * cy - cu * by) / area, (bx * cu - cx * bu) / area
+
+
+@compiled
+def edge_cost(code, g, A, h, B, length):
+    """Cost of an edge between planes of gradient g and h over areas A/2 and B/2.
+
+    The jump is parallel to the edge's normal, so |g - h| is the JND; it is also the
+    rate at which one plane misses the other's opposite node, at the distance area
+    over length.
+    """
+    dx, dy = g[0] - h[0], g[1] - h[1]
+    jump = sqrt(dx * dx + dy * dy)
+    if code == JND:
+        return jump
+    if code == ABN:
+        skew = g[0] * h[1] - g[1] * h[0]
+        return atan2(sqrt(dx * dx + dy * dy + skew * skew), 1 + g[0] * h[0] + g[1] * h[1])
+    over, under = jump * B / length, jump * A / length
+    if code == DFP:
+        over /= sqrt(1 + g[0] * g[0] + g[1] * g[1])
+        under /= sqrt(1 + h[0] * h[0] + h[1] * h[1])
+    return sqrt(over * over + under * under)
+
+
+@compiled
+def side_cost(code, x, y, g, A, beyond, a, b, gx, gy, area):
+    """Cost of the outer edge a-b of the quadrilateral; 0 on the boundary."""
+    if beyond < 0:
+        return 0.0
+    length = 1.0
+    if code >= DLP:
+        length = sqrt((x[a] - x[b]) ** 2 + (y[a] - y[b]) ** 2)
+    return edge_cost(code, g, A, (gx[beyond], gy[beyond]), area[beyond], length)
+
+
+@compiled
+def corner(x, y, a, b, c):
+    """The angle at a between b and c."""
+    ux, uy, vx, vy = x[b] - x[a], y[b] - y[a], x[c] - x[a], y[c] - y[a]
+    return atan2(abs(ux * vy - uy * vx), ux * vx + uy * vy)
+
+
+@compiled
+def element_cost(code, x, y, corners):
+    """How far the smallest or largest angle of an element is from 60 degrees."""
+    a, b, c = corners
+    p, q, r = corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)
+    excess = EQUILATERAL - min(p, q, r) if code == SMALLEST_ANGLE else max(p, q, r) - EQUILATERAL
+    return max(excess, 0.0)  # not below 0 by rounding
+
+
+@compiled
+def combined(norm, p, q, r, s, t):
+    """What the norm compares: the sum, the sum of squares, or the maximum."""
+    if norm == SUM:
+        return p + q + r + s + t
+    if norm == SQUARES:
+        return p * p + q * q + r * r + s * s + t * t
+    return max(p, q, r, s, t)
+
+
+@compiled
+def too_sharp(x, y, corners, min_angle):
+    """Whether an element has an angle below the limit (section 6.1)."""
+    a, b, c = corners
+    return min(corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)) < min_angle
+
+
+@compiled
+def refused(x, y, corners, area, min_angle, min_area):
+    """Whether an element would be flat or break a limit of section 6.1."""
+    if area <= 0 or area < min_area:
+        return True
+    return min_angle > 0 and too_sharp(x, y, corners, min_angle)

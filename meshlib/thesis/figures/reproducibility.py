@@ -1,0 +1,108 @@
+"""Figures of the appendix on reproducibility."""
+import numpy as np
+
+from ... import plotting
+from .. import printed, studies
+from ..measures import L2
+from ..study_tables import title
+
+__all__ = ["study_angle_limits", "study_every_mesh", "study_maxima", "study_means", "study_noise"]
+
+BINS, LARGEST_DOT = 30, 400
+LEAST_ROOM = 0.01  # beside the values, relative to them
+ROW, TALL, LEGEND = 1.25, 4.2, 0.9  # inches
+COLOURS = [plotting.PALETTE[c] for c in ("black", "orange", "sky", "green", "purple", "blue", "vermillion")]
+MARKERS = "osv^D*X"
+HEADS = {L2: "$L_2$ error", ("maximum_angle", "mean"): "maximum angle", ("skewness", "mean"): "skewness",
+         ("aspect_ratio", "mean"): "aspect ratio", ("maximum_angle", "max"): "maximum angle",
+         ("skewness", "max"): "skewness", ("aspect_ratio", "max"): "aspect ratio"}
+BAND = (0.1, 0.5, 0.9)  # quantiles
+PRINTED_AT = {"jnd": (0, "SR3-81-JND-L2"), "abn": (8, "SR3-81-8-degrees")}
+
+
+def study_means():
+    """L2 error and means of the shapes over all edge orders, with the printed values."""
+    return _distributions((L2, *((m, "mean") for m in printed.GEOMETRY)))
+
+
+def study_maxima():
+    """Maxima of the shapes over all edge orders, with the printed values."""
+    return _distributions(tuple((m, "max") for m in printed.GEOMETRY))
+
+
+def _distributions(measures):
+    keys, pyplot = studies.SWAPS, plotting.look.pyplot()
+    with plotting.style():
+        figure, rows = pyplot.subplots(len(keys), len(measures), layout="constrained", squeeze=False,
+                                       figsize=(plotting.WIDTH, ROW * len(keys)))
+        for key, row in zip(keys, rows, strict=True):
+            for which, ax in zip(measures, row, strict=True):
+                _distribution(ax, studies.orders(key).values(which), float(studies.texts(key)[which]))
+            row[0].set_ylabel(title(key).replace(", ", "\n", 1), rotation=0, ha="right", va="center")
+        for which, ax in zip(measures, rows[0], strict=True):
+            ax.set_title(HEADS[which])
+    return figure
+
+
+def _distribution(ax, values, text):
+    """Shares of the orders by value, and the printed value as a line."""
+    low, high = min(values.min(), text), max(values.max(), text)
+    room = max(0.06 * (high - low), LEAST_ROOM * abs(high))
+    ax.hist(values, BINS, (low - room, high + room), weights=np.full(len(values), 100 / len(values)),
+            color=plotting.SECOND)
+    ax.axvline(text, color=plotting.ACCENT, linewidth=plotting.look.THICK)
+    ax.set(yticks=[], xlim=(low - room, high + room))
+    ax.xaxis.set_major_locator(plotting.look.pyplot().MaxNLocator(3))
+    ax.spines[["top", "right", "left"]].set_visible(False)
+
+
+def study_noise():
+    """Share of the trials in which noise changes a printed digit, against its size."""
+    figure, axes = plotting.panels(2, size=plotting.WIDTH / 2)
+    figure.set_size_inches(plotting.WIDTH, plotting.WIDTH / 2.4 + LEGEND)
+    for ax, tolerance in zip(axes, (None, 0.0), strict=True):
+        for key, colour, marker in zip(studies.SWAPS, COLOURS, MARKERS, strict=True):
+            shares = [max(studies.noise(key, m, tolerance).values()) for m in studies.MAGNITUDES]
+            ax.plot(studies.MAGNITUDES, np.multiply(100, shares), color=colour, marker=marker, markersize=4,
+                    label=title(key))
+        ax.set(xscale="log", xlabel="size of the noise", ylim=(-4, 104))
+    axes[0].set_ylabel("trials with a changed digit, per cent")
+    for ax, text in zip(axes, ("a swap must gain more than the tolerance", "any gain makes a swap"), strict=True):
+        ax.set_title(text)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    return figure
+
+
+def study_angle_limits():
+    """L2 error of SR3 on 81 nodes against the limit on the smallest angle, for two criteria."""
+    figure, (ax,) = plotting.panels(size=TALL)
+    figure.set_size_inches(1.6 * TALL, TALL)
+    for criterion, colour in zip(studies.CRITERIA, (plotting.SECOND, plotting.ACCENT), strict=True):
+        low, middle, high = np.quantile(studies.angle_limits(criterion), BAND, axis=1)
+        ax.fill_between(studies.ANGLES, low, high, color=colour, alpha=0.2, linewidth=0)
+        ax.plot(studies.ANGLES, middle, color=colour, marker=".", label=f"{criterion.upper()}-L2, median")
+        limit, key = PRINTED_AT[criterion]
+        ax.plot(limit, float(studies.texts(key)[L2]), "s", color=plotting.PALETTE["black"], zorder=3,
+                label="printed" if criterion == "jnd" else None)
+    ax.set(xlabel="no new angle below, degrees", ylabel="$L_2$ error")
+    ax.legend()
+    return figure
+
+
+def study_every_mesh():
+    """Cost against L2 error of all meshes of ten nodes, and where edge swapping ends."""
+    costs, errors, reached = studies.every_mesh()
+    figure, (ax,) = plotting.panels(size=TALL)
+    figure.set_size_inches(1.6 * TALL, TALL)
+    ax.plot(costs, errors, ".", color=plotting.FAINT, markersize=3, label=f"all {len(costs)} meshes")
+    ends = np.flatnonzero(reached)
+    sizes = LARGEST_DOT * reached[ends] / reached.sum()
+    ax.scatter(costs[ends], errors[ends], sizes, color=plotting.SECOND, zorder=3,
+               label="local optima, by share of orders")
+    ax.plot(costs.min(), errors[costs.argmin()], "*", color=plotting.ACCENT, markersize=14, zorder=4,
+            label="least cost of all")
+    ax.plot(costs[errors.argmin()], errors.min(), "D", color=plotting.PALETTE["black"], zorder=4,
+            label="least error of all")
+    ax.set(xlabel="cost, ABN-L1", ylabel="$L_2$ error")
+    ax.legend()
+    return figure

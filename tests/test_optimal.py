@@ -1,0 +1,145 @@
+"""The best of all meshes: listed, proved, and found by many edge orders."""
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, swapped
+from meshlib.enumeration import enumerated
+from meshlib.optima import local_optima, order_of
+from meshlib.optimal import optimal
+from strategies import problems_of
+from support import all_meshes, as_set, lattice, polygon, shuffled
+
+CONCAVE = Mesh([[0, 0], [4, 0], [4, 4], [2, 2], [0, 4], [1, 1], [3, 1]],
+               [[0, 1, 5], [1, 6, 5], [1, 2, 6], [2, 3, 6], [3, 5, 6], [3, 4, 5], [4, 0, 5]]).validate()
+
+
+def meshes_of(start):
+    return [Mesh(start.nodes, elements).validate() for elements in enumerated(start)]
+
+
+@pytest.mark.parametrize("nodes, number", [(polygon(7), 42), (lattice(2, 2), 64), (lattice(3, 1), 20)])
+def test_every_mesh_is_listed_once(nodes, number):
+    """Catalan numbers; lattices by Kaibel & Ziegler 2003."""
+    found = meshes_of(delaunay(nodes))
+    assert len(found) == len(set(map(as_set, found))) == number
+    assert set(map(as_set, found)) == set(map(as_set, all_meshes(delaunay(nodes))))
+
+
+def test_listing_stops_with_a_remedy():
+    with pytest.raises(MeshError) as error:
+        enumerated(delaunay(polygon(8)), most=100)  # 132
+    assert str(error.value) == "range: there are more than 100 meshes; give fewer nodes or raise most"
+
+
+@pytest.mark.parametrize("name", ["jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle"])
+@pytest.mark.parametrize("norm", [1, 2])
+@pytest.mark.parametrize("seed", range(3))
+def test_no_listed_mesh_is_better(name, norm, seed):
+    rng = np.random.default_rng(seed)
+    start, values = delaunay(rng.random((8, 2))), rng.standard_normal(8)
+    costs = [np.linalg.norm(criteria.costs(m, values, name), norm) for m in meshes_of(start)]
+    found = optimal(start, values, name, norm)
+    assert found.cost == pytest.approx(min(costs), rel=1e-12)
+    assert found.bound <= found.cost
+    assert len(costs) > 20 and max(costs) > found.cost
+
+
+@settings(max_examples=40)
+@given(problems_of(most=8, scales=(1.0, 0.1)), st.sampled_from(("jnd", "abn")), st.sampled_from((1, 2)))
+def test_no_listed_mesh_is_better_among_ties(problem, name, norm):
+    mesh, values = problem
+    costs = [np.linalg.norm(criteria.costs(m, values, name), norm) for m in meshes_of(mesh)]
+    found = optimal(mesh, values, name, norm)
+    assert found.mesh.validate().counts == mesh.counts
+    assert found.cost == pytest.approx(min(costs), rel=1e-10, abs=1e-10)
+    assert found.bound <= min(costs) * (1 + 1e-10) + 1e-10
+
+
+@pytest.mark.parametrize("start", [CONCAVE, "frame"])
+def test_the_domain_is_kept(start, request, rng):
+    """A bay and a hole: no element may cross or fill them."""
+    start = request.getfixturevalue(start) if isinstance(start, str) else start
+    values = rng.standard_normal(start.n_nodes)
+    best = optimal(start, values, "jnd", 1)
+    assert best.mesh.validate().domain_area == pytest.approx(start.domain_area)
+    edges = {tuple(e) for e in start.edges[start.boundary].tolist()}
+    assert {tuple(e) for e in best.mesh.edges[best.mesh.boundary].tolist()} == edges
+    assert best.cost == pytest.approx(min(np.linalg.norm(criteria.costs(m, values, "jnd"), 1)
+                                          for m in meshes_of(start)))
+
+
+def test_the_least_l2_error_of_the_paraboloid_is_that_of_delaunay(rng):
+    nodes = rng.random((20, 2))
+    u = problems.functions["convex"]
+    best = optimal(shuffled(delaunay(nodes), rng), u, criteria.min_error(u), 2)
+    assert best.mesh.equals(delaunay(nodes))
+    assert best.bound == pytest.approx(best.cost, rel=1e-10)
+    assert best.cost == pytest.approx(Interpolant(best.mesh, u).l2_error(u, rule="exact"), rel=1e-12)
+
+
+@pytest.mark.parametrize("function, norm, cost", [("SR1", 1, 9.436366858276), ("SR1", 2, 2.371595592102),
+                                                  ("SR2", 1, 16.767967094016)])
+def test_proved_optima_on_33_nodes(function, norm, cost):
+    found = optimal(problems.mesh("33"), problems.functions[function], "abn", norm)
+    assert found.cost == pytest.approx(cost, rel=1e-11)
+    assert found.bound == pytest.approx(cost, rel=1e-11)
+    many = local_optima(problems.mesh("33"), problems.functions[function], "abn", norm, orders=50)
+    assert (many.costs >= found.bound * (1 - 1e-12)).all()
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ({"criterion": "gradient-spread"},
+     "unknown: criterion 'gradient-spread' is on nodes; give one on edges or elements"),
+    ({"norm": "max"}, "unknown: norm 'max' is not known (known: 1, 2)")])
+def test_what_is_no_sum_is_refused(square, arguments, message):
+    with pytest.raises(MeshError) as error:
+        optimal(square, [0, 0, 1, 0], **arguments)
+    assert str(error.value) == message
+
+
+def test_too_many_nodes_are_refused():
+    mesh = delaunay(lattice(10, 10))
+    with pytest.raises(MeshError) as error:
+        optimal(mesh, np.zeros(mesh.n_nodes))
+    assert str(error.value) == "range: the mesh has 121 nodes; give at most 120"
+
+
+# -- many edge orders ----------------------------------------------------------------------
+
+
+def test_each_order_leads_where_swapping_leads():
+    mesh, u = problems.mesh("33"), problems.SR2
+    found = local_optima(mesh, u, "abn", 1, orders=60, seed=3)
+    assert found.optimum.shape == (60,) and found.counts.sum() == 60 and len(found) > 1
+    assert len({elements.tobytes() for elements in found.elements}) == len(found)
+    for k in range(60):
+        one = swapped(mesh, u, "abn", 1, order_of(3, k, mesh.n_edges))
+        assert one.mesh.equals(found.mesh(found.optimum[k]))
+        assert one.cost_after == pytest.approx(found.costs[found.optimum[k]])
+
+
+def test_the_best_of_them_costs_least():
+    found = local_optima(problems.mesh("33"), problems.SR2, "abn", 1, orders=60)
+    cost = np.linalg.norm(criteria.costs(found.best.validate(), problems.SR2, "abn"), 1)
+    assert cost == pytest.approx(found.costs.min()) and cost < found.costs.max()
+
+
+@pytest.mark.parametrize("workers", [2, -1])
+def test_workers_do_not_change_the_result(workers, monkeypatch):
+    pytest.importorskip("joblib")
+    monkeypatch.setattr("meshlib.optima.ORDERS_AT_ONCE", 7)
+    arguments = problems.mesh("33"), problems.functions["franke"], "jnd"
+    alone, shared = (local_optima(*arguments, orders=40, workers=n) for n in (1, workers))
+    assert np.array_equal(alone.elements, shared.elements) and np.array_equal(alone.optimum, shared.optimum)
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ({"orders": 0}, "range: orders is 0; give a whole number from 1"),
+    ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
+    ({"workers": -2}, "range: workers is -2; give a whole number from -1")])
+def test_arguments_are_checked(square, arguments, message):
+    with pytest.raises(MeshError) as error:
+        local_optima(square, [0, 0, 1, 0], **arguments)
+    assert str(error.value) == message
