@@ -5,6 +5,8 @@ from .errors import MeshError
 from .interpolant import Interpolant
 from .mesh import Mesh
 from .movement import smoothed
+from .optima import local_optima
+from .optimal import optimal
 from .quality import quality
 from .refinement import refined
 from .swapping import swapped
@@ -12,5 +14,5 @@ from .swapping import swapped
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["Interpolant", "Mesh", "MeshError", "criteria", "delaunay", "problems",
-           "quality", "refined", "smoothed", "swapped"]
+__all__ = ["Interpolant", "Mesh", "MeshError", "criteria", "delaunay",
+           "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped"]

@@ -46,22 +46,26 @@ def norm_of(costs, norm):
     return found ** 0.5 if norm == 2 else found[0] if isinstance(found, tuple) else found
 
 
-def tolerance(norm, scale):
-    """Relative and absolute gain that a swap must exceed, for costs of this scale."""
-    absolute = ABSOLUTE * scale
-    return RELATIVE, absolute ** 2 if norm == 2 else absolute
+def tolerance(scale):
+    """Relative and absolute gain of a norm that a swap must exceed, for costs of this scale."""
+    return RELATIVE, ABSOLUTE * scale
 
 
-def is_below(new, old, relative, absolute):
+def is_below(new, old, norm, relative, absolute):
     """Whether a measure is below another by more than the tolerance.
+
+    For the L2 norm the roots are compared: costs h that are known but for d are so
+    squared but for 2 h d, which no fixed tolerance on squares would cover.
 
     Examples
     --------
-    >>> is_below(1.0, 2.0, *tolerance(2, 1.0)), is_below(1.0, 1.0 + 1e-15, *tolerance(2, 1.0))
+    >>> is_below(1.0, 2.0, 2, *tolerance(1.0)), is_below(1.0, 1.0 + 1e-15, 2, *tolerance(1.0))
     (True, False)
     """
     if isinstance(new, tuple):
         return new < old
+    if norm == 2:
+        new, old = new ** 0.5, old ** 0.5
     return new < old * (1 - relative) - absolute
 
 
@@ -73,6 +77,6 @@ def precedes(first, second, norm, scale=0.0):
     >>> precedes([2, 1], [2, 3], "max"), precedes([2, 1], [3, 0], "lexicographic")
     (True, True)
     """
-    relative, absolute = tolerance(norm, scale)
+    relative, absolute = tolerance(scale)
     first, second = (measure(costs, norm, absolute) for costs in (first, second))
-    return is_below(first, second, relative, absolute)
+    return is_below(first, second, norm, relative, absolute)

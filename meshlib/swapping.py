@@ -75,8 +75,8 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     min_area : float, optional
         Swaps that create an element below this area are refused.
     tolerance : float, optional
-        Gain of the local cost, as the norm compares it (squared for L2), below which
-        no swap is made; see the notes for the default.
+        Gain in the norm of the local cost below which no swap is made; see the notes
+        for the default.
 
     Returns
     -------
@@ -100,11 +100,11 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     In floating point the same holds, for two reasons.  The cost of an edge is computed
     from its elements alone, in an order that does not depend on the swaps before, so
     that it is the same number whenever these elements occur.  And a swap is made only
-    if ``new < old (1 - 1e-12) - a``: by more than the rounding of a sum of five.  The
-    absolute part ``a``, 1e-11 of the size of a typical cost of such data (squared for
-    L2) or the tolerance given, keeps an edge where old and new cost differ by noise
-    alone, so that the result does not hang on the last bit.  The lexicographic order
-    compares costs rounded to multiples of ``a`` instead.
+    if ``new < old (1 - 1e-12) - a`` for the norms of the local costs: by more than the
+    rounding of a sum of five.  The absolute part ``a``, 1e-11 of the size of a typical
+    cost of such data or the tolerance given, keeps an edge where old and new cost differ
+    by noise alone, so that the result does not hang on the last bit.  The lexicographic
+    order compares costs rounded to multiples of ``a`` instead.
 
     Built-in edge and angle criteria run compiled where numba is installed; the
     lexicographic order and one's own criteria run in Python.
@@ -132,7 +132,7 @@ def prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance):
     values = checks.nodal_values(mesh, values)
     criterion, norm = criteria.get(criterion), norms.checked(norm)
     limits = _limits(min_angle, min_area)
-    tolerance = _tolerance(tolerance, norm, criterion.scale(mesh, values))
+    tolerance = _tolerance(tolerance, criterion.scale(mesh, values))
     return Procedure(mesh, values, criterion, norm, limits, tolerance)
 
 
@@ -149,8 +149,8 @@ def _limits(min_angle, min_area):
     return Limits(np.radians(angle) * JUST_MET, area * JUST_MET)
 
 
-def _tolerance(tolerance, norm, scale):
-    relative, absolute = norms.tolerance(norm, scale)
+def _tolerance(tolerance, scale):
+    relative, absolute = norms.tolerance(scale)
     if tolerance is None:
         return relative, absolute
     return relative, checks.number(tolerance, "tolerance", 0, np.inf, "a finite gain of at least 0")

@@ -108,16 +108,19 @@ def test_the_search_finds_the_stored_certificate_again(arguments, key, tmp_path,
     assert (tmp_path / f"{key}.json").read_text() == certificates.load(key).to_json()
 
 
-def test_a_search_goes_on_where_it_stopped(tmp_path):
-    command = 'python -m meshlib.thesis.search 5.3 "SR2" --seed 1'
+def test_a_search_goes_on_where_it_stopped(tmp_path, monkeypatch):
+    """With walks of ten steps the first tasks fail."""
+    monkeypatch.setattr(search, "STEPS", 10)
     arguments = {"workers": 1, "folder": tmp_path, "progress": False}
-    assert search.search("SR2-81-JND-L2", command, tasks=3, **arguments) is None
-    log = tmp_path / "SR2-81-JND-L2.search.json"
-    assert json.loads(log.read_text())["done"] == 3
-    found = search.search("SR2-81-JND-L2", command, **arguments)
-    assert found.read_text() == certificates.load("SR2-81-JND-L2").to_json()
-    state = json.loads(log.read_text())
-    assert certificates.load("SR2-81-JND-L2").found_by == f"{command} (task {state['done']})"
+    assert search.search("SR1-33-ABN-L2", "command", tasks=2, **arguments) is None
+    log = tmp_path / "SR1-33-ABN-L2.search.json"
+    assert json.loads(log.read_text())["done"] == 2
+    done = []
+    monkeypatch.setattr(search, "task", lambda key, seed, number: done.append((seed, number)))
+    assert search.search("SR1-33-ABN-L2", "command", tasks=5, **arguments) is None
+    assert done == [(1, 2), (1, 3), (1, 4)]
+    assert search.search("SR1-33-ABN-L2", "command", seed=2, tasks=1, **arguments) is None
+    assert done[3:] == [(2, 0)]
 
 
 def test_the_search_says_what_it_knows():

@@ -106,6 +106,14 @@ def combined(norm, p, q, r, s, t):
 
 
 @compiled
+def is_below(norm, new, old, relative, absolute):
+    """Whether a local cost is below another by more than the tolerance, see `norms.is_below`."""
+    if norm == SQUARES:
+        new, old = sqrt(new), sqrt(old)
+    return new < old * (1 - relative) - absolute
+
+
+@compiled
 def too_sharp(x, y, corners, min_angle):
     """Whether an element has an angle below the limit (section 6.1)."""
     a, b, c = corners

@@ -22,6 +22,7 @@ from .costs import (
     edge_cost,
     element_cost,
     from_smallest,
+    is_below,
     plane,
     refused,
     side_cost,
@@ -179,7 +180,7 @@ def sweep(order, code, norm, relative, absolute, min_angle, min_area,
             fresh = new_costs(code, x, y, a, b, c, d, outer_elements(h, j, twin), g, A, k, B, gx, gy, area)
             old = known_cost(norm, five, cost)
             new = combined(norm, fresh[0], fresh[2], fresh[3], fresh[4], fresh[1])
-        accepted = new < old * (1 - relative) - absolute
+        accepted = is_below(norm, new, old, relative, absolute)
         if traced:
             record(log, costs, tried, e, a, b, c, d, accepted, old, new)
         tried += 1

@@ -30,7 +30,7 @@ def swapped(mesh, values, criterion, norm, order, limits, tolerance):
             a, b, c, d = quad
             old, new = (norms.measure(_finite(h, a, b), norm, tolerance[1])
                         for h in local_cost(criterion.cost, points, apex, quad))
-            accepted = norms.is_below(new, old, *tolerance)
+            accepted = norms.is_below(new, old, norm, *tolerance)
             tried.append((sweep, e, a, b, c, d, accepted, *_deciding(old, new)))
             if accepted:
                 _swap(apex, quad)

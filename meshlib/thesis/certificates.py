@@ -34,7 +34,7 @@ class Certificate:
         Names of u in `meshlib.problems` and of the criterion of the caption.
     norm : {1, 2}
     tolerance : float
-        Gain of the local cost (squared for L2) below which no swap is made.
+        Gain in the norm of the local cost below which no swap is made.
     perturbation : dict
         Node number -> what is added to u there.
     nodes : (N, 2) ndarray of float64

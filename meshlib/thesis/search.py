@@ -65,7 +65,7 @@ class Hunt:
 
 HUNTS = {
     "SR2-81-JND-L2": Hunt(noisy=0.1, shuffled=False),
-    "SR3-81-JND-L2": Hunt(noisy=0, tolerance=1e-9),
+    "SR3-81-JND-L2": Hunt(noisy=0, tolerance=1e-6),
     "SR1-33-ABN-L2": Hunt(noisy=0.3),
     "SR1-33-ABN-L1": Hunt(noisy=0.3),
     "SR2-33-ABN-L1": Hunt(noisy=0.3),
