@@ -141,7 +141,7 @@ class Mesh:
 
     @_derived
     def half_edges(self):
-        """(3 T,), (3 T,), (E,) int64: twins and edges of half-edges, see `topology.half_edges`."""
+        """(3 T,), (3 T,), (E,) int32: twins and edges of half-edges, see `topology.half_edges`."""
         return topology.half_edges(self.element_edges, self.n_edges)
 
     @_derived

@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from .criteria import Criterion
-from .interpolant import gradients
 from .mesh import Mesh
 from .norms import norm_of
 from .topology import from_smallest
@@ -52,49 +51,57 @@ class Procedure:
     limits: Limits
     tolerance: tuple
 
-    def run(self, order, trace=False):
-        """Inspect the edges in this order until a sweep swaps nothing.
+    def run(self, order, trace=False, schedule="sweep"):
+        """Inspect the edges in this order until no swap is left to make.
 
         Parameters
         ----------
-        order : (E,) ndarray of int64
+        order : (E,) ndarray of int
         trace : bool
             Whether to record every tried swap.
+        schedule : {"sweep", "queue"}
+            Sweep after sweep, or each edge once and then those near swaps.
 
         Returns
         -------
         Outcome
         """
         compiled = self.criterion.code >= 0 and self.norm in NORM_CODES
-        return (self._compiled if compiled else self._plain)(order, trace)
+        return (self._compiled if compiled else self._plain)(order, trace, schedule)
 
     def cost(self, mesh):
         """Norm of the cost vector of a mesh with the same nodes."""
         return norm_of(self.criterion.costs(mesh, self.values), self.norm)
 
-    def _compiled(self, order, trace):
+    def _compiled(self, order, trace, schedule):
         from .kernels import lop  # with numba, which takes a while to load
+        state, arguments = self._arguments(order)
+        if trace and schedule == "sweep":
+            return self._traced(lop.sweep, state, arguments)
+        # the trace of a queue may be of any length
+        logs = _logs(self.run(order, False, schedule).tried if trace else 0)
+        done = {"sweep": lop.optimised, "queue": lop.drained}[schedule](*arguments, *logs)
+        return Outcome(_elements(state), *done, _rows(0, *logs, done[2] if trace else 0))
+
+    def _arguments(self, order):
+        """A fresh copy of the state, and all that a kernel wants but the logs."""
         from .kernels.backend import flat
         state = tuple(array.copy() for array in self._state)
-        arguments = (flat(order), self.criterion.code, NORM_CODES[self.norm], *self.tolerance,
-                     self.limits.angle, 2 * self.limits.area, *self._data, *state)
-        if trace:
-            return self._traced(lop.sweep, arguments, flat)
-        done = lop.optimised(*arguments, *(flat(np.zeros(0, dtype=t)) for t in (np.int64, float)))
-        return Outcome(_elements(state), *done, np.zeros(0, dtype=TRACE))
+        return state, (flat(order), self.criterion.code, NORM_CODES[self.norm], *self.tolerance,
+                       self.limits.angle, 2 * self.limits.area, *self._data, *state)
 
-    def _traced(self, sweep, arguments, flat):
-        size, rows, totals = self.mesh.n_edges, [], []
-        log, costs = flat(np.zeros(6 * size, dtype=np.int64)), flat(np.zeros(2 * size))
+    def _traced(self, sweep, state, arguments):
+        rows, totals, logs = [], [], _logs(self.mesh.n_edges)
         while not totals or totals[-1][0]:
-            totals.append(sweep(*arguments, log, costs))
-            rows.append(_rows(len(totals), log, costs, totals[-1][1]))
+            totals.append(sweep(*arguments, *logs))
+            rows.append(_rows(len(totals), *logs, totals[-1][1]))
         swaps, tried = (sum(column) for column in zip(*totals, strict=True))
-        return Outcome(_elements(arguments[10:]), swaps, len(totals), tried, np.concatenate(rows))
+        return Outcome(_elements(state), swaps, len(totals), tried, np.concatenate(rows))
 
-    def _plain(self, order, trace):
+    def _plain(self, order, trace, schedule):
         from .kernels import reference
-        elements, swaps, sweeps, tried = reference.swapped(
+        procedure = {"sweep": reference.swapped, "queue": reference.drained}[schedule]
+        elements, swaps, sweeps, tried = procedure(
             self.mesh, self.values, self.criterion, self.norm, order, self.limits, self.tolerance)
         return Outcome(_in_rows(elements, self.mesh), swaps, sweeps, len(tried), np.array(tried, dtype=TRACE))
 
@@ -107,17 +114,22 @@ class Procedure:
     @cached_property
     def _state(self):
         """All that the kernel changes, before the first swap: the mesh, its planes and costs."""
-        from .kernels import lop
+        from .kernels import lop, setup
         from .kernels.backend import flat
         mesh = self.mesh
-        turned = Mesh._trusted(mesh.nodes, from_smallest(mesh.elements))  # as the kernel computes
-        planes = gradients(turned.corners, self.values[turned.elements])
-        arrays = (mesh.elements.astype(np.int64), *mesh.half_edges, *planes.T, 2 * turned.areas,
-                  np.zeros(mesh.n_edges), np.full(mesh.n_edges, lop.UNKNOWN))
-        element, twin, slot, half, *more, cost, settled = (flat(v) for v in arrays)
+        element, twin, slot, half = (flat(v) for v in (mesh.elements, *mesh.half_edges))
+        planes = tuple(flat(np.empty(mesh.n_elements)) for _ in range(3))
+        cost, settled = flat(np.zeros(mesh.n_edges)), flat(np.full(mesh.n_edges, lop.UNKNOWN, dtype=np.int8))
+        setup.planes(element, *self._data, *planes)
         if self.criterion.code < lop.SMALLEST_ANGLE:
-            lop.first_costs(self.criterion.code, *self._data[:2], element, twin, half, *more, cost)
-        return element, twin, slot, half, *more, cost, settled
+            lop.first_costs(self.criterion.code, *self._data[:2], element, twin, half, *planes, cost)
+        return element, twin, slot, half, *planes, cost, settled
+
+
+def _logs(rows):
+    """Room to record so many tried swaps."""
+    from .kernels.backend import flat
+    return flat(np.zeros(6 * rows, dtype=np.int64)), flat(np.zeros(2 * rows))
 
 
 def _elements(state):

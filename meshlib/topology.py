@@ -13,15 +13,30 @@ import numpy as np
 from .errors import MeshError
 
 TAILS, HEADS = [1, 2, 0], [2, 0, 1]
+MANY = 10_000  # elements from which on the kernel for edges pays, which gives the same
 
 
 def edge_table(elements, n_nodes):
     """Edges in lexicographic order, and the edge opposite each node of each element."""
+    if len(elements) >= MANY:
+        return _edge_table_by_counting(elements, n_nodes)
     ends = np.stack([elements[:, TAILS], elements[:, HEADS]]).astype(np.int64)
     keys = ends.min(axis=0) * n_nodes + ends.max(axis=0)
     unique, numbers = np.unique(keys, return_inverse=True)
     edges = np.stack(np.divmod(unique, n_nodes), axis=1).astype(np.int32)
     return edges, numbers.reshape(elements.shape).astype(np.int32)
+
+
+def _edge_table_by_counting(elements, n_nodes):
+    """The same by a kernel, which is faster where there is much to do."""
+    from .kernels import setup
+    from .kernels.backend import flat
+    size, number = elements.size, np.int32
+    slot, edges = flat(np.empty(size, dtype=number)), flat(np.empty(2 * size, dtype=number))
+    rooms = (flat(np.zeros(n, dtype=number)) for n in (n_nodes + 1, size, size))
+    count = setup.edge_table(flat(elements), *rooms, slot, edges)
+    return (np.array(edges[:2 * count], dtype=number).reshape(-1, 2),
+            np.array(slot, dtype=number).reshape(-1, 3))
 
 
 def sides(elements, element_edges, n_edges):
@@ -53,14 +68,12 @@ def half_edges(element_edges, n_edges):
     Half-edge 3 t + k is the side of element t opposite its node k; its twin is the same
     side seen from the neighbour, or -1.
     """
-    numbers = np.arange(element_edges.size)
-    slot = element_edges.astype(np.int64).ravel()
-    half = np.empty(n_edges, dtype=np.int64)
-    half[slot] = numbers
-    twin = np.full(len(numbers), -1, dtype=np.int64)
-    others = np.flatnonzero(half[slot] != numbers)
-    twin[others], twin[half[slot[others]]] = half[slot[others]], others
-    return twin, slot, half
+    from .kernels import setup
+    from .kernels.backend import flat
+    slot = flat(element_edges)
+    twin, half = (flat(np.full(n, setup.NOWHERE, dtype=np.int32)) for n in (element_edges.size, n_edges))
+    setup.twins(slot, twin, half)
+    return tuple(np.asarray(a, dtype=np.int32) for a in (twin, slot, half))
 
 
 def from_smallest(elements):

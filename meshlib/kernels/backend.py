@@ -31,7 +31,12 @@ NAME, _numba = _chosen()
 
 def compiled(function):
     """The function compiled by numba, or as it is."""
-    return _numba.njit(cache=True)(function) if _numba else function
+    return _numba.njit(cache=True, error_model="numpy")(function) if _numba else function
+
+
+def inlined(function):
+    """The same, copied into its callers: a call that hands over many arrays is dear."""
+    return _numba.njit(cache=True, error_model="numpy", inline="always")(function) if _numba else function
 
 
 def flat(array):

@@ -5,7 +5,7 @@ depend on the swaps before, so that it is the same number whenever the element o
 """
 from math import atan2, sqrt
 
-from .backend import compiled
+from .backend import compiled, inlined
 
 JND, ABN, DLP, DFP, SMALLEST_ANGLE, LARGEST_ANGLE = range(6)
 SUM, SQUARES, MAXIMUM = 1, 2, 0
@@ -35,6 +35,15 @@ def turn(x, y, corners):
     right = (x[c] - x[a]) * (y[b] - y[a])
     area = left - right
     return area if abs(area) > FLAT * (abs(left) + abs(right)) else 0.0
+
+
+@compiled
+def is_convex(x, y, a, b, c, d):
+    """Whether c-d crosses a-b strictly inside, but for rounding: if not, an element would be flat."""
+    dx, dy = x[d] - x[c], y[d] - y[c]
+    left = (x[a] - x[c]) * dy - (y[a] - y[c]) * dx
+    right = (x[b] - x[c]) * dy - (y[b] - y[c]) * dx
+    return left > 0 and right < 0
 
 
 @compiled
@@ -68,7 +77,7 @@ def edge_cost(code, g, A, h, B, length):
     return sqrt(over * over + under * under)
 
 
-@compiled
+@inlined
 def side_cost(code, x, y, g, A, beyond, a, b, gx, gy, area):
     """Cost of the outer edge a-b of the quadrilateral; 0 on the boundary."""
     if beyond < 0:
@@ -108,6 +117,8 @@ def combined(norm, p, q, r, s, t):
 @compiled
 def is_below(norm, new, old, relative, absolute):
     """Whether a local cost is below another by more than the tolerance, see `norms.is_below`."""
+    if new >= old:
+        return False  # mostly, and without a root
     if norm == SQUARES:
         new, old = sqrt(new), sqrt(old)
     return new < old * (1 - relative) - absolute

@@ -4,6 +4,8 @@ The mesh is a dictionary from directed edges to the node on their left.  Costs c
 from the vectorised definitions in `meshlib.criteria`, so that nothing but the
 algorithm is shared with the compiled form, whose oracle this is.
 """
+from collections import deque
+
 import numpy as np
 
 from .. import norms
@@ -15,27 +17,72 @@ from ..quality import angles
 FLAT = 1e-12
 
 
-def swapped(mesh, values, criterion, norm, order, limits, tolerance):
-    """Elements after Algorithm 3.1.4, the numbers of swaps and sweeps, and every tried swap."""
-    apex = {(a, b): c for t in mesh.elements.tolist() for a, b, c in (t, t[1:] + t[:1], t[2:] + t[:2])}
-    slots, points = [tuple(e) for e in mesh.edges.tolist()], np.column_stack([mesh.nodes, values])
-    local_cost = {"edge": _edge_costs, "element": _element_costs, "node": _node_costs}[criterion.on]
-    tried, swaps, sweep, changed = [], 0, 0, True
+def swapped(mesh, *arguments):
+    """Elements after Algorithm 3.1.4, the numbers of swaps and sweeps, and every tried swap.
+
+    The arguments are values, criterion, norm, order, limits and tolerance.
+    """
+    state = _State(mesh, *arguments)
+    sweep, changed = 0, True
     while changed:
-        sweep, changed = sweep + 1, False
-        for e in order.tolist():
-            quad = _quadrilateral(apex, slots[e])
-            if quad is None or _is_refused(mesh.nodes, quad, limits):
-                continue
-            a, b, c, d = quad
-            old, new = (norms.measure(_finite(h, a, b), norm, tolerance[1])
-                        for h in local_cost(criterion.cost, points, apex, quad))
-            accepted = norms.is_below(new, old, norm, *tolerance)
-            tried.append((sweep, e, a, b, c, d, accepted, *_deciding(old, new)))
-            if accepted:
-                _swap(apex, quad)
-                slots[e], swaps, changed = (c, d), swaps + 1, True
-    return _elements(apex), swaps, sweep, tried
+        sweep += 1
+        changed = sum([state.inspect(e, sweep) for e in state.order])  # no short cut: all are inspected
+    return state.elements, state.swaps, sweep, state.tried
+
+
+def drained(mesh, *arguments):
+    """The same with a queue: all edges once, and again those whose local cost a swap may change."""
+    state = _State(mesh, *arguments)
+    queue = deque(state.order)
+    while queue:
+        e = queue.popleft()
+        if state.inspect(e, 0):
+            queue.extend(f for f in dict.fromkeys(state.near(e)) if f not in set(queue))
+    return state.elements, state.swaps, 0, state.tried
+
+
+class _State:
+    """A mesh as a dictionary, and what has been done to it."""
+
+    def __init__(self, mesh, values, criterion, norm, order, limits, tolerance):
+        self.apex = {(a, b): c for t in mesh.elements.tolist()
+                     for a, b, c in (t, t[1:] + t[:1], t[2:] + t[:2])}
+        self.slots, self.order = [tuple(e) for e in mesh.edges.tolist()], order.tolist()
+        self.nodes, self.points = mesh.nodes, np.column_stack([mesh.nodes, values])
+        self.cost, self.norm, self.limits, self.tolerance = criterion.cost, norm, limits, tolerance
+        self.local_cost = {"edge": _edge_costs, "element": _element_costs, "node": _node_costs}[criterion.on]
+        self.swaps, self.tried = 0, []
+
+    @property
+    def elements(self):
+        return _elements(self.apex)
+
+    def inspect(self, e, sweep):
+        """Swap an edge if it is not locally optimal; returns whether it was swapped."""
+        quad = _quadrilateral(self.apex, self.slots[e])
+        if quad is None or _is_refused(self.nodes, quad, self.limits):
+            return False
+        a, b, c, d = quad
+        old, new = (norms.measure(_finite(h, a, b), self.norm, self.tolerance[1])
+                    for h in self.local_cost(self.cost, self.points, self.apex, quad))
+        accepted = norms.is_below(new, old, self.norm, *self.tolerance)
+        self.tried.append((sweep, e, a, b, c, d, accepted, *_deciding(old, new)))
+        if accepted:
+            _swap(self.apex, quad)
+            self.slots[e], self.swaps = (c, d), self.swaps + 1
+        return accepted
+
+    def near(self, e):
+        """The edges around the new edge c-d: its sides, and the two others of each element beyond."""
+        number = {frozenset(ends): k for k, ends in enumerate(self.slots)}
+        c, d = sorted(self.slots[e])
+        a, b = self.apex[d, c], self.apex[c, d]
+        for p, q in ((d, b), (b, c), (c, a), (a, d)):
+            yield number[frozenset((p, q))]
+            r = self.apex.get((q, p))
+            if r is not None:
+                yield number[frozenset((p, r))]
+                yield number[frozenset((r, q))]
 
 
 def _finite(costs, a, b):

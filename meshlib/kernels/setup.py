@@ -1,0 +1,92 @@
+r"""What the procedure needs of a mesh before its first swap, in passes over flat arrays.
+
+Half-edge h = 3 t + k is the side of element t opposite its node k, as in `lop`.
+"""
+from .backend import compiled
+from .costs import from_smallest
+from .lop import after, before
+
+NOWHERE = -1
+
+
+@compiled
+def edge_table(element, starts, half, other, slot, edges):
+    """Number the edges in lexicographic order, by counting half-edges at their smaller node.
+
+    ``starts`` has N + 1 zeros; ``half`` and ``other`` are room for one number for each
+    half-edge; ``slot`` receives the edge of each half-edge and ``edges`` the nodes of
+    each edge.  Returns the number of edges.
+    """
+    for h in range(len(element)):
+        starts[min(element[after(h)], element[before(h)]) + 1] += 1
+    for n in range(1, len(starts)):
+        starts[n] += starts[n - 1]
+    for h in range(len(element)):
+        a, b = element[after(h)], element[before(h)]
+        low = min(a, b)
+        half[starts[low]], other[starts[low]] = h, a + b - low
+        starts[low] += 1
+    count = begin = 0
+    for n in range(len(starts) - 1):
+        sort_by_key(half, other, begin, starts[n])
+        last = -1
+        for i in range(begin, starts[n]):
+            if other[i] != last:
+                last = other[i]
+                edges[2 * count], edges[2 * count + 1] = n, last
+                count += 1
+            slot[half[i]] = count - 1
+        begin = starts[n]
+    return count
+
+
+@compiled
+def sort_by_key(values, keys, begin, end):
+    """Sort a few values by their keys, equal ones in the order they stand in."""
+    for i in range(begin + 1, end):
+        value, key, j = values[i], keys[i], i - 1
+        while j >= begin and keys[j] > key:
+            values[j + 1], keys[j + 1] = values[j], keys[j]
+            j -= 1
+        values[j + 1], keys[j + 1] = value, key
+
+
+@compiled
+def twins(slot, twin, half):
+    """Set the other side of each half-edge, and the last half-edge of each edge; both are -1 before."""
+    for h in range(len(slot)):
+        e = slot[h]
+        if half[e] >= 0:
+            twin[h] = half[e]
+            twin[half[e]] = h
+        half[e] = h
+
+
+@compiled
+def planes(element, x, y, u, gx, gy, area):
+    """Set gradient and doubled area of each element."""
+    for t in range(len(area)):
+        a, b, c = from_smallest(element[3 * t], element[3 * t + 1], element[3 * t + 2])
+        bx, by, bu = x[b] - x[a], y[b] - y[a], u[b] - u[a]
+        cx, cy, cu = x[c] - x[a], y[c] - y[a], u[c] - u[a]
+        area[t] = bx * cy - cx * by
+        scale = area[t] if area[t] != 0 else float("nan")
+        gx[t], gy[t] = (bu * cy - cu * by) / scale, (bx * cu - cx * bu) / scale
+
+
+@compiled
+def along_curve(x, y, place, bits):
+    """Set the place of each point of the unit square on Hilbert's curve through 4^bits cells."""
+    side = 1 << bits
+    for n in range(len(place)):
+        i, j = min(int(x[n] * side), side - 1), min(int(y[n] * side), side - 1)
+        found, step = 0, side >> 1
+        while step > 0:
+            right, upper = (i & step) > 0, (j & step) > 0
+            found += step * step * ((3 * right) ^ upper)
+            if not upper:
+                if right:
+                    i, j = side - 1 - i, side - 1 - j
+                i, j = j, i
+            step >>= 1
+        place[n] = found

@@ -1,0 +1,125 @@
+"""The schedule of a queue: certified local optima, the same by both procedures."""
+import dataclasses
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from meshlib import Mesh, MeshError, criteria, delaunay, problems, swapped
+from meshlib.renumbering import along_curve
+from meshlib.topology import MANY, edge_table
+from strategies import meshes, problems_of
+from support import as_set, is_delaunay, shuffled
+
+NAMES = ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle")
+
+
+def reference(name):
+    return dataclasses.replace(criteria.get(name), code=-1)
+
+
+def tries(trace):
+    """What was tried, each edge seen from its smaller node."""
+    return [(r["edge"], *min((r["a"], r["b"], r["c"], r["d"]), (r["b"], r["a"], r["d"], r["c"])),
+             r["accepted"]) for r in trace]
+
+
+@settings(max_examples=120)
+@given(problems_of(scales=(1.0, 2.0 ** -20)), st.sampled_from(NAMES), st.sampled_from((1, 2, "max")),
+       st.sampled_from(({}, {"min_angle": 10}, {"min_area": 0.01})), st.one_of(st.none(), st.integers(0, 99)))
+def test_both_procedures_agree_and_end_in_a_local_optimum(problem, name, norm, limits, seed):
+    mesh, values = problem
+    order = None if seed is None else np.random.default_rng(seed).permutation(mesh.n_edges)
+    ours = swapped(mesh, values, name, norm, order, schedule="queue", **limits)
+    theirs = swapped(mesh, values, reference(name), norm, order, schedule="queue", **limits)
+    assert ours.mesh.validate().equals(theirs.mesh)
+    assert (ours.swaps, ours.sweeps, ours.tried) == (theirs.swaps, 0, theirs.tried)
+    assert tries(ours.trace) == tries(theirs.trace)
+    assert swapped(ours.mesh, values, name, norm, **limits).swaps == 0
+
+
+@pytest.mark.parametrize("name", ["jnd", "abn"])
+@pytest.mark.parametrize("norm", [1, 2])
+def test_the_cost_falls_and_no_edge_is_left_to_swap(name, norm):
+    rng = np.random.default_rng(4)
+    mesh, u = delaunay(rng.random((2000, 2))), problems.functions["franke"]
+    found = swapped(mesh, u, name, norm, schedule="queue")
+    assert found.cost_after < found.cost_before and found.swaps > 500
+    assert swapped(found.mesh.validate(), u, name, norm).swaps == 0
+
+
+def test_the_trace_of_a_queue_can_be_replayed():
+    mesh, u = problems.mesh("33"), problems.functions["SR2"]
+    found = swapped(mesh, u, "abn", 1, schedule="queue")
+    elements = as_set(mesh)
+    for row in found.trace[found.trace["accepted"]]:
+        a, b, c, d = (int(row[k]) for k in "abcd")
+        old, new = ({tuple(sorted(t)) for t in pair}
+                    for pair in (((a, b, c), (a, b, d)), ((c, d, a), (c, d, b))))
+        assert old <= elements
+        elements = (elements - old) | new
+    assert elements == as_set(found.mesh)
+    first = found.trace[0]
+    assert mesh.edges[first["edge"]].tolist() == sorted((first["a"], first["b"]))
+
+
+def test_max_min_angles_by_a_queue_give_delaunay(rng):
+    start = shuffled(delaunay(rng.random((60, 2))), rng)
+    assert not is_delaunay(start)
+    assert is_delaunay(swapped(start, np.zeros(60), "smallest-angle", "lexicographic", schedule="queue").mesh)
+
+
+def test_an_unknown_schedule_is_named(square):
+    with pytest.raises(MeshError) as error:
+        swapped(square, [0, 0, 1, 0], schedule="stack")
+    assert str(error.value) == "unknown: schedule 'stack' is not known (known: 'sweep', 'queue')"
+
+
+# -- numbering -----------------------------------------------------------------------------
+
+
+@given(meshes())
+def test_renumbering_can_be_taken_back(mesh):
+    found = along_curve(mesh)
+    assert found.mesh.validate().counts == mesh.counts
+    assert np.array_equal(found.restored(found.mesh.elements), mesh.elements)
+    assert np.array_equal(found.mesh.nodes, mesh.nodes[found.nodes])
+
+
+def test_neighbours_in_the_plane_are_near_in_memory(rng):
+    mesh = delaunay(rng.random((4000, 2)))
+    before, after = (np.median(np.abs(np.diff(m.edges, axis=1))) for m in (mesh, along_curve(mesh).mesh))
+    assert after < before / 20
+
+
+def test_the_curve_goes_from_cell_to_neighbouring_cell():
+    """Hilbert's curve through 16 x 16 cells: each step has length one, each cell comes once."""
+    from meshlib.kernels import setup
+    from meshlib.kernels.backend import flat
+    j, i = np.divmod(np.arange(256), 16)
+    place = flat(np.zeros(256, dtype=np.uint16))
+    setup.along_curve(flat((i + 0.5) / 16), flat((j + 0.5) / 16), place, 4)
+    order = np.argsort(place)
+    assert sorted(np.asarray(place).tolist()) == list(range(256))
+    assert (np.abs(np.diff(i[order])) + np.abs(np.diff(j[order])) == 1).all()
+
+
+@pytest.mark.parametrize("hole", [False, True])
+def test_edges_by_counting_are_those_by_sorting(hole, rng, monkeypatch):
+    mesh = delaunay(rng.random((MANY // 2 + 200, 2)))
+    elements = mesh.elements[mesh.nodes[mesh.elements].mean(axis=1)[:, 0] > 0.01] if hole else mesh.elements
+    assert len(elements) >= MANY
+    counted = edge_table(elements, mesh.n_nodes)
+    monkeypatch.setattr("meshlib.topology.MANY", np.inf)
+    for ours, theirs in zip(counted, edge_table(elements, mesh.n_nodes), strict=True):
+        assert np.array_equal(ours, theirs) and ours.dtype == theirs.dtype
+
+
+def test_half_edges_by_hand(square):
+    """Elements (0, 1, 2), (0, 2, 3): their common side is opposite node 1 of the first, node 3 of the second."""
+    twin, slot, half = square.half_edges
+    assert twin.tolist() == [-1, 5, -1, -1, -1, 1]
+    assert square.edges[slot].tolist() == [[1, 2], [0, 2], [0, 1], [2, 3], [0, 3], [0, 2]]
+    assert slot[half].tolist() == list(range(5))
+    assert isinstance(Mesh(square.nodes, square.elements).half_edges[0], np.ndarray)
