@@ -66,6 +66,15 @@ def each_edge_once(numbers, edges):
         raise MeshError("edge", f"nodes {i} and {j} are joined by an edge that is not given; add it", (i, j))
 
 
+def marked(array, what):
+    """Three columns, the third a marker, or a MeshError."""
+    array = np.asarray(array)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise MeshError("shape", f"{what} have shape {array.shape}; give three columns, "
+                        "the third the boundary marker")
+    return array
+
+
 def markers(what, given, derived):
     """Raise a MeshError that names a marker which disagrees with the mesh."""
     wrong = np.flatnonzero((given != 0) != derived)

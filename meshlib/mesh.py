@@ -5,7 +5,6 @@ from functools import cached_property, wraps
 import numpy as np
 
 from . import checks, topology
-from .errors import MeshError
 
 
 def _derived(method):
@@ -141,7 +140,7 @@ class Mesh:
 
     @_derived
     def half_edges(self):
-        """(3 T,), (3 T,), (E,) int32: twins and edges of half-edges, see `topology.half_edges`."""
+        """(3 T,), (3 T,), (E,) int32: twin and edge of each half-edge, a half-edge of each edge."""
         return topology.half_edges(self.element_edges, self.n_edges)
 
     @_derived
@@ -290,11 +289,7 @@ class Mesh:
         >>> Mesh.from_arrays(*mesh.to_arrays()).equals(mesh)
         True
         """
-        nodes, edges = np.asarray(nodes), np.asarray(edges)
-        for array, what in ((nodes, "nodes"), (edges, "edges")):
-            if array.ndim != 2 or array.shape[1] != 3:
-                raise MeshError("shape", f"{what} have shape {array.shape}; give three columns, "
-                                "the third the boundary marker")
+        nodes, edges = (checks.marked(array, what) for array, what in ((nodes, "nodes"), (edges, "edges")))
         mesh = cls(nodes[:, :2], elements)
         numbers = mesh.edge_numbers(edges[:, :2])
         checks.each_edge_once(numbers, mesh.edges)

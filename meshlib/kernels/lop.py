@@ -135,8 +135,9 @@ def unsettle(h, element, twin, slot, settled, queue, last, n):
     """Mark the edges whose local cost the swap to the edge of half-edge h may have changed.
 
     These are, for the edge c-d with c < d, the sides d-b, b-c, c-a, a-d and the two
-    other edges of the element beyond each.  Those that were settled are appended to the queue, a ring of n places of
-    which ``last`` is the next free one, if it has any; returns how many were.
+    other edges of the element beyond each.  Those that were settled are appended to the
+    queue, a ring of n places of which ``last`` is the next free one, if it has any;
+    returns how many were.
     """
     j, count = twin[h], 0
     if element[after(h)] > element[before(h)]:  # h is to run from c to d

@@ -89,7 +89,8 @@ def optimum():
         best = studies.best(function, swap.criterion, swap.norm).cost
         error = l2_error(studies.best(function, "l2", 2).mesh, problems.functions[function])
         least = study.optima.costs.min()
-        rows.append((title(key), swap.title, f"{cost:.4f}", f"{least:.4f}", f"{best:.4f}", _excess(cost, best)))
+        values = (f"{value:.4f}" for value in (cost, least, best))
+        rows.append((title(key), swap.title, *values, _excess(cost, best)))
         rows.append(("", "$L_2$ error", f"{result.measures[L2]:.6f}", f"{study.measures[L2].min():.6f}",
                      f"{error:.6f}", _excess(result.measures[L2], error)))
     return markdown(grid(head, rows))

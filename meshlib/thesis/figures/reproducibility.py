@@ -12,6 +12,7 @@ BINS, LARGEST_DOT = 30, 400
 LEAST_ROOM = 0.01  # beside the values, relative to them
 ROW, TALL, LEGEND = 1.25, 4.2, 0.9  # inches
 COLOURS = [plotting.PALETTE[c] for c in ("black", "orange", "sky", "green", "purple", "blue", "vermillion")]
+RULES = "a swap must gain more than the tolerance", "any gain makes a swap"
 MARKERS = "osv^D*X"
 HEADS = {L2: "$L_2$ error", ("maximum_angle", "mean"): "maximum angle", ("skewness", "mean"): "skewness",
          ("aspect_ratio", "mean"): "aspect ratio", ("maximum_angle", "max"): "maximum angle",
@@ -67,7 +68,7 @@ def study_noise():
                     label=title(key))
         ax.set(xscale="log", xlabel="size of the noise", ylim=(-4, 104))
     axes[0].set_ylabel("trials with a changed digit, per cent")
-    for ax, text in zip(axes, ("a swap must gain more than the tolerance", "any gain makes a swap"), strict=True):
+    for ax, text in zip(axes, RULES, strict=True):
         ax.set_title(text)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
