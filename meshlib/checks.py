@@ -156,6 +156,13 @@ def whole(value, least, what):
     return int(value)
 
 
+def workers(value):
+    """A number of processes, -1 for one on each core, or a MeshError."""
+    if not (isinstance(value, (int, np.integer)) and value >= -1 and value != 0):
+        raise MeshError("range", f"workers is {value!r}; give a whole number from 1, or -1 for all cores")
+    return int(value)
+
+
 def choice(value, options, what):
     """``value`` if it is one of the options, else an error with the nearest one."""
     if np.isscalar(value) and value in options:

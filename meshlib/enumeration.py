@@ -38,7 +38,7 @@ def enumerated(mesh, most=MOST_MESHES):
     Raises
     ------
     MeshError
-        If there are more than ``most``.
+        If there are more than ``most``, or the domain is not simply connected.
 
     Examples
     --------
@@ -49,6 +49,9 @@ def enumerated(mesh, most=MOST_MESHES):
     5
     """
     mesh, most = checks.a_mesh(mesh), checks.whole(most, 1, "most")
+    nodes, edges, triangles = mesh.counts
+    if nodes - edges + triangles != 1:  # Euler
+        raise MeshError("domain", "the domain has a hole or is in parts; give one without")
     turns = Candidates(mesh).turns
     start = frozenset(map(tuple, canonical(mesh.elements).tolist()))
     found, known = [start], {start}

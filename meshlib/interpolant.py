@@ -94,10 +94,11 @@ class Interpolant:
         from .kernels.backend import flat
         step = (high - low) / (nx - 1, ny - 1)
         slack = raster.SLACK + ROUNDING * (np.abs([low, high]).max(axis=0) / step).max()
-        order = np.argsort(~nearly_flat(self.mesh.corners), kind="stable")
+        sliver = nearly_flat(self.mesh.corners)
+        order = np.concatenate([np.flatnonzero(sliver), np.flatnonzero(~sliver)])
         grid = flat(np.full(nx * ny, np.nan))
         raster.filled(grid, nx, ny, *map(float, step), float(slack), flat(order),
-                      flat(self.mesh.elements.astype(np.int64)),
+                      flat(self.mesh.elements),
                       *map(flat, (*(self.mesh.nodes - low).T, self.values, *self.gradients.T)))
         return np.reshape(grid, (ny, nx))
 

@@ -86,7 +86,7 @@ def local_optima(mesh, values, criterion="jnd", norm=2, orders=100, seed=0, min_
     seed : int
         Of the orders, at least 0.
     workers : int
-        Processes to share the work, -1 for one on each core.  The result does not
+        Processes to share the work, -1 for one on each core, not 0.  The result does not
         depend on it.  The backend is that of joblib, so a Dask cluster will do too.
     progress : bool
         Whether to show a progress bar.
@@ -113,7 +113,7 @@ def local_optima(mesh, values, criterion="jnd", norm=2, orders=100, seed=0, min_
     """
     procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance)
     orders, seed = checks.whole(orders, 1, "orders"), checks.whole(seed, 0, "seed")
-    workers = checks.whole(workers, -1, "workers")
+    workers = checks.workers(workers)
     starts = range(0, orders, ORDERS_AT_ONCE)
     parts = [(procedure, seed, range(k, min(k + ORDERS_AT_ONCE, orders))) for k in starts]
     return _merged(procedure, seed, list(shared(_distinct, parts, workers, progress, total=len(parts))))
@@ -146,7 +146,7 @@ def shared(function, parts, workers=1, progress=False, unit="part", total=None):
     A generator: who stops asking stops the work.  With ``progress`` a bar is shown,
     which knows the end if ``total`` is given.
     """
-    results = _in_turn(function, parts) if workers in (0, 1) else _in_parallel(function, parts, workers)
+    results = _in_turn(function, parts) if workers == 1 else _in_parallel(function, parts, workers)
     return _with_bar(results, total, unit) if progress else results
 
 
@@ -159,7 +159,8 @@ def _in_parallel(function, parts, workers):
     jobs = (joblib.delayed(function)(*part) for part in parts)
     results = joblib.Parallel(n_jobs=workers, return_as="generator")(jobs)
     try:
-        yield from results
+        for result in results:  # noqa: UP028 - "yield from" would close them before the warning is silenced
+            yield result
     finally:
         with warnings.catch_warnings():  # that some work was in vain
             warnings.simplefilter("ignore")

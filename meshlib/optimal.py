@@ -20,7 +20,7 @@ from .candidates import Candidates
 from .errors import MeshError
 from .mesh import Mesh
 
-MOST_NODES = 120
+MOST_NODES, SECONDS = 120, 60.0
 LARGEST_COST = 1e6  # given to the solver, whose tolerances are absolute
 SCALES = (1.0, 1e6, 1e9)  # of the largest cost, for the multipliers
 
@@ -45,7 +45,7 @@ class Optimal:
     bound: float
 
 
-def optimal(mesh, values, criterion="jnd", norm=2):
+def optimal(mesh, values, criterion="jnd", norm=2, seconds=SECONDS):
     """The best mesh with the same nodes and the same domain (Definition 3.1.1).
 
     Parameters
@@ -56,6 +56,8 @@ def optimal(mesh, values, criterion="jnd", norm=2):
     criterion : str or Criterion
         On edges or elements, for example ``criteria.min_error(u)``.
     norm : {1, 2}
+    seconds : float
+        How long the solver may take.
 
     Returns
     -------
@@ -64,14 +66,15 @@ def optimal(mesh, values, criterion="jnd", norm=2):
     Raises
     ------
     MeshError
-        If there are too many nodes, or the criterion or the norm is no sum over edges
-        or elements.
+        If there are too many nodes, the criterion or the norm is no sum over edges or
+        elements, or the time is up.
 
     Notes
     -----
     Finding the mesh of least sum is hard in general, but the relaxation to fractions is
-    tight, or nearly so, in every case of this report, and 33 nodes take less than a
-    second.  Elements flat to rounding are left out, as `swapped` leaves them out.
+    tight, or nearly so, in every case of this report, and 33 nodes take about a second.
+    With 81 nodes it is a few seconds for data without ties, and may be very long for
+    data with many.  Elements flat to rounding are left out, as `swapped` leaves them out.
 
     Examples
     --------
@@ -91,7 +94,7 @@ def optimal(mesh, values, criterion="jnd", norm=2):
         raise MeshError("range", f"the mesh has {mesh.n_nodes} nodes; give at most {MOST_NODES}")
     candidates = Candidates(mesh)
     costs, matrix, right = _model(candidates, values, criterion, norm)
-    chosen = _solved(costs, matrix, right)[:len(candidates)]
+    chosen = _solved(costs, matrix, right, seconds)[:len(candidates)]
     best = Mesh(mesh.nodes, candidates.triangles[chosen > 0.5]).validate()
     cost = float(np.linalg.norm(criterion.costs(best, values), norm))
     return Optimal(best, cost, min(cost, _bound(costs, matrix, right) ** (1 / norm)))
@@ -110,14 +113,15 @@ def _model(candidates, values, criterion, norm):
     return np.concatenate([np.zeros(len(candidates)), pair]), *candidates.balance(len(pair))
 
 
-def _solved(costs, matrix, right):
+def _solved(costs, matrix, right, seconds):
     """The optimal choice, rounded."""
     from scipy.optimize import Bounds, LinearConstraint, milp
     scale = LARGEST_COST / (costs.max() or 1.0)
-    found = milp(scale * costs, integrality=np.ones(len(costs)), bounds=Bounds(0, 1),
-                 constraints=LinearConstraint(matrix, right, right), options={"mip_rel_gap": 0})
-    if found.x is None:
-        raise MeshError("solver", f"HiGHS found no optimum: {found.message}")
+    options = {"mip_rel_gap": 0, "time_limit": float(seconds)}
+    found = milp(scale * costs, integrality=np.ones(len(costs)), bounds=Bounds(0, 1), options=options,
+                 constraints=LinearConstraint(matrix, right, right))
+    if not found.success:
+        raise MeshError("solver", f"no proof within {seconds:g} seconds; give fewer nodes or more seconds")
     return np.rint(found.x)
 
 

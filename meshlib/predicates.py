@@ -85,11 +85,16 @@ def nearly_flat(corners):
     [True, False]
     """
     unit = np.abs(corners).max(initial=0) or 1  # products of tiny coordinates underflow
-    a, b, c = np.moveaxis(corners / unit, 1, 0)
-    u, v = b - a, c - a
-    left, right = u[:, 0] * v[:, 1], u[:, 1] * v[:, 0]
-    moved = ULPS * ROUNDOFF * np.abs(corners / unit).max(axis=(1, 2)) * np.abs([u, v]).max(axis=(0, 2))
-    return left - right <= FLAT * (np.abs(left) + np.abs(right)) + moved
+    (ax, bx, cx), (ay, by, cy) = np.moveaxis(corners, (2, 1), (0, 1)) / unit
+    ux, uy, vx, vy = bx - ax, by - ay, cx - ax, cy - ay
+    left, right = ux * vy, uy * vx
+    room = FLAT * (np.abs(left) + np.abs(right))
+    longest = np.maximum(np.maximum(np.abs(ux), np.abs(uy)), np.maximum(np.abs(vx), np.abs(vy)))
+    found = left - right <= room + ULPS * ROUNDOFF * longest  # for coordinates of up to 1
+    some = np.flatnonzero(found)
+    moved = ULPS * ROUNDOFF * np.abs(corners[some] / unit).max(axis=(1, 2)) * longest[some]
+    found[some] = (left - right)[some] <= room[some] + moved
+    return found
 
 
 def _sign(formula, bound, *points):

@@ -27,6 +27,13 @@ def test_every_mesh_is_listed_once(nodes, number):
     assert set(map(as_set, found)) == set(map(as_set, all_meshes(delaunay(nodes))))
 
 
+def test_listing_refuses_a_hole(frame):
+    """Flips need not lead from any mesh to any other around a hole."""
+    with pytest.raises(MeshError) as error:
+        enumerated(frame)
+    assert str(error.value) == "domain: the domain has a hole or is in parts; give one without"
+
+
 def test_listing_stops_with_a_remedy():
     with pytest.raises(MeshError) as error:
         enumerated(delaunay(polygon(8)), most=100)  # 132
@@ -66,8 +73,9 @@ def test_the_domain_is_kept(start, request, rng):
     assert best.mesh.validate().domain_area == pytest.approx(start.domain_area)
     edges = {tuple(e) for e in start.edges[start.boundary].tolist()}
     assert {tuple(e) for e in best.mesh.edges[best.mesh.boundary].tolist()} == edges
-    assert best.cost == pytest.approx(min(np.linalg.norm(criteria.costs(m, values, "jnd"), 1)
-                                          for m in meshes_of(start)))
+    if start is CONCAVE:
+        assert best.cost == pytest.approx(min(np.linalg.norm(criteria.costs(m, values, "jnd"), 1)
+                                              for m in meshes_of(start)))
 
 
 def test_the_least_l2_error_of_the_paraboloid_is_that_of_delaunay(rng):
@@ -97,6 +105,12 @@ def test_what_is_no_sum_is_refused(square, arguments, message):
     with pytest.raises(MeshError) as error:
         optimal(square, [0, 0, 1, 0], **arguments)
     assert str(error.value) == message
+
+
+def test_the_solver_stops_in_time():
+    with pytest.raises(MeshError) as error:
+        optimal(problems.mesh("81"), problems.SR2, "abn", 1, seconds=1e-3)
+    assert str(error.value) == "solver: no proof within 0.001 seconds; give fewer nodes or more seconds"
 
 
 def test_too_many_nodes_are_refused():
@@ -138,7 +152,8 @@ def test_workers_do_not_change_the_result(workers, monkeypatch):
 @pytest.mark.parametrize("arguments, message", [
     ({"orders": 0}, "range: orders is 0; give a whole number from 1"),
     ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
-    ({"workers": -2}, "range: workers is -2; give a whole number from -1")])
+    ({"workers": 0}, "range: workers is 0; give a whole number from 1, or -1 for all cores"),
+    ({"workers": -2}, "range: workers is -2; give a whole number from 1, or -1 for all cores")])
 def test_arguments_are_checked(square, arguments, message):
     with pytest.raises(MeshError) as error:
         local_optima(square, [0, 0, 1, 0], **arguments)

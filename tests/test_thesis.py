@@ -10,7 +10,7 @@ import pytest
 
 import meshlib as ml
 from meshlib import problems
-from meshlib.thesis import certificates, experiments, printed, scoreboard, search, studies
+from meshlib.thesis import certificates, experiments, hunt, printed, scoreboard, search, studies
 
 CERTIFIED = {  # certificate: the criterion of the caption
     "SR2-81-JND-L2": ("jnd", 2), "SR3-81-JND-L2": ("jnd", 2),
@@ -84,6 +84,13 @@ def test_a_spoilt_certificate_is_noticed(name):
     assert fault in spoilt.faults()
 
 
+def test_a_certificate_for_another_criterion_is_noticed(board, monkeypatch):
+    other = dataclasses.replace(certificates.load("SR1-33-ABN-L2"), criterion="jnd")
+    monkeypatch.setattr(certificates, "load", lambda name: other)
+    monkeypatch.setattr(certificates, "names", lambda: ["SR1-33-ABN-L2"])
+    assert "certificate SR1-33-ABN-L2: criterion is 'jnd', by the caption 'abn'" in scoreboard.faults(board.values())
+
+
 def test_an_edge_left_out_is_noticed():
     good = certificates.load("SR1-33-ABN-L1")
     spoilt = dataclasses.replace(good, edges=np.vstack([good.edges[1:], good.edges[1]]))
@@ -105,15 +112,20 @@ def test_a_certificate_survives_writing_and_reading():
 def test_the_search_finds_the_stored_certificate_again(arguments, key, tmp_path, capsys):
     assert search.main([*arguments, "--folder", str(tmp_path), "--workers", "1"]) == 0
     assert capsys.readouterr().out == f"{tmp_path / key}.json\n"
-    assert (tmp_path / f"{key}.json").read_text() == certificates.load(key).to_json()
+    found, stored = certificates.from_json((tmp_path / f"{key}.json").read_text()), certificates.load(key)
+    for name in ("nodes", "elements", "edges", "result"):
+        assert np.array_equal(getattr(found, name), getattr(stored, name))
+    assert (found.perturbation, found.found_by) == (stored.perturbation, stored.found_by)
+    assert found.tolerance == pytest.approx(stored.tolerance)  # its last bits are those of a tanh
+    assert [f.name for f in tmp_path.iterdir()] == [f"{key}.json"]
 
 
 def test_a_search_goes_on_where_it_stopped(tmp_path, monkeypatch):
     """With walks of ten steps the first tasks fail."""
-    monkeypatch.setattr(search, "STEPS", 10)
+    monkeypatch.setattr(hunt, "STEPS", 10)
     arguments = {"workers": 1, "folder": tmp_path, "progress": False}
     assert search.search("SR1-33-ABN-L2", "command", tasks=2, **arguments) is None
-    log = tmp_path / "SR1-33-ABN-L2.search.json"
+    log = tmp_path / "SR1-33-ABN-L2.seed-1.search.json"
     assert json.loads(log.read_text())["done"] == 2
     done = []
     monkeypatch.setattr(search, "task", lambda key, seed, number: done.append((seed, number)))
@@ -121,6 +133,30 @@ def test_a_search_goes_on_where_it_stopped(tmp_path, monkeypatch):
     assert done == [(1, 2), (1, 3), (1, 4)]
     assert search.search("SR1-33-ABN-L2", "command", seed=2, tasks=1, **arguments) is None
     assert done[3:] == [(2, 0)]
+    monkeypatch.setattr(hunt, "STEPS", 20)  # another way to search begins anew
+    assert search.search("SR1-33-ABN-L2", "command", tasks=1, **arguments) is None
+    assert done[4:] == [(1, 0)]
+
+
+@pytest.mark.parametrize("arguments, message", [
+    (["5.9"], "unknown: table '5.9' is not known; did you mean '5.5'? (known: '5.3', '5.4', '5.5', '6.2')"),
+    (["5.3"], "column: table 5.3 has several; name one of 'SR2', 'SR3'"),
+    (["5.5", "--seed", "-1"], "range: seed is -1; give a whole number from 0"),
+    (["5.5", "--tasks", "0"], "range: tasks is 0; give a whole number from 1"),
+    (["5.5", "--workers", "0"], "range: workers is 0; give a whole number from 1, or -1 for all cores")])
+def test_wrong_arguments_of_the_search_are_named(arguments, message, capsys):
+    with pytest.raises(SystemExit) as stop:
+        search.main(arguments)
+    assert stop.value.code == 2
+    assert capsys.readouterr().err.splitlines()[-1] == f"python -m meshlib.thesis.search: error: {message}"
+
+
+def test_a_search_that_is_interrupted_says_how_to_go_on(tmp_path, monkeypatch, capsys):
+    def interrupted(key, seed, number):
+        raise KeyboardInterrupt
+    monkeypatch.setattr(search, "task", interrupted)
+    assert search.main(["5.5", "--folder", str(tmp_path), "--workers", "1"]) == 130
+    assert capsys.readouterr().out == "stopped; the same command goes on from here\n"
 
 
 def test_the_search_says_what_it_knows():

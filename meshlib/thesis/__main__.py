@@ -15,9 +15,9 @@ def main(arguments=None):
     parser.add_argument("--record", action="store_true", help="put these verdicts on record")
     chosen = parser.parse_args(arguments)
     board = scoreboard.lines()
-    if chosen.record:
-        scoreboard.record(board)
     faults = scoreboard.faults(board) if chosen.check else []
+    if chosen.record and not faults:
+        scoreboard.record(board)
     print(json.dumps(scoreboard.as_json(board), indent=1) if chosen.json else scoreboard.as_text(board))
     print(*faults, sep="\n", end="\n" if faults else "", file=sys.stderr)
     return 1 if faults else 0

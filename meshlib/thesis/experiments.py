@@ -133,7 +133,7 @@ def _refine(key, nodes, mark, recipe, ties="first"):
 
 
 def _certified(key, function, nodes, criterion, norm, shuffled=False):
-    recipe = f"order and perturbation of certificates/{key}.json"
+    recipe = f"order, perturbation and tolerance of certificates/{key}.json"
     return _swap(key, function, nodes, Swap(criterion, norm), recipe, certified=True, shuffled=shuffled)
 
 

@@ -123,9 +123,23 @@ def faults(board):
     list of str
     """
     known = recorded()
-    found = [f"{e.id} is {e.verdict}, on record is {known[e.id]}" for e in board
-             if VERDICTS.index(e.verdict) > VERDICTS.index(known[e.id])]
+    found = [f"{e.id} is {e.verdict}, on record is {known.get(e.id, 'nothing')}" for e in board
+             if VERDICTS.index(e.verdict) > VERDICTS.index(known.get(e.id, VERDICTS[0]))]
     found += [f"{key} is on record and was not computed" for key in known.keys() - {e.id for e in board}]
     for name in certificates.names():
-        found += [f"certificate {name}: {fault}" for fault in certificates.load(name).faults()]
+        certificate = certificates.load(name)
+        wrong = [*_off(name, certificate), *certificate.faults()]
+        found += [f"certificate {name}: {fault}" for fault in wrong]
     return found
+
+
+def _off(name, certificate):
+    """What of a certificate is not as in the caption of its column."""
+    experiment = experiments.EXPERIMENTS.get(name)
+    if experiment is None:
+        return ["no experiment has this name"]
+    swap = experiment.operate
+    caption = {"start": experiment.nodes, "function": experiment.function, "criterion": swap.criterion,
+               "norm": swap.norm}
+    return [f"{what} is {getattr(certificate, what)!r}, by the caption {expected!r}"
+            for what, expected in caption.items() if getattr(certificate, what) != expected]

@@ -23,29 +23,20 @@ TRIALS = 100
 MAGNITUDES = tuple(10.0 ** k for k in range(-16, -5))
 PROBE = 1e-9  # the noise by which cells are told apart
 RARE = 0.01  # a share of trials below which a cell counts as unchanged
-ANGLES = tuple(range(0, 31, 2))
+ANGLES = tuple(range(31))
 ANGLE_ORDERS = 200
 CRITERIA = ("jnd", "abn")
 QUADRATURE_DEGREE, SETTLED, LEVELS = 10, 1e-6, 6
 MIN_ERROR_DEGREE = 100  # tanh has poles near the cliff
 SMALL_NODES, SMALL_SEED = 10, 0
 
-# every experiment of edge swapping, once for both columns that share one
-SWAPS = tuple(key for key, e in EXPERIMENTS.items() if isinstance(e.operate, Swap) and not e.shuffled)
-REFINEMENTS = tuple(key for key in EXPERIMENTS if "-by-" in key or key.endswith("density"))
+SWAPS = tuple(key for key, e in EXPERIMENTS.items() if isinstance(e.operate, Swap))
 
 
+@cache
 def texts(key):
     """What the thesis prints of an experiment: (measure, statistic) -> text."""
     return {(n.measure, n.statistic): n.text for n in printed.numbers() if n.experiment == key}
-
-
-def _procedure(key, tolerance=None):
-    """The procedure of an experiment on unperturbed values."""
-    experiment = EXPERIMENTS[key]
-    swap, mesh = experiment.operate, problems.mesh(experiment.nodes)
-    return prepared(mesh, problems.functions[experiment.function], swap.criterion, swap.norm, swap.min_angle,
-                    None, tolerance)
 
 
 # -- many orders ---------------------------------------------------------------------------
@@ -57,13 +48,11 @@ class OrderStudy:
 
     Attributes
     ----------
-    key : str
     optima : LocalOptima
     measures : dict
         (measure, statistic) -> (M,) array, a value for each optimum.
     """
 
-    key: str
     optima: LocalOptima
     measures: dict
 
@@ -82,7 +71,6 @@ class OrderStudy:
         return np.all(fits, axis=0)[self.optima.optimum].mean()
 
 
-@cache
 def orders(key, count=ORDERS):
     """An experiment under so many random edge orders, ties broken by the tolerance.
 
@@ -93,10 +81,14 @@ def orders(key, count=ORDERS):
     2 0.24
     """
     experiment = EXPERIMENTS[key]
-    swap, function = experiment.operate, problems.functions[experiment.function]
-    found = local_optima(problems.mesh(experiment.nodes), function, swap.criterion, swap.norm, count, SEED,
-                         swap.min_angle)
-    return OrderStudy(key, found, measured_all(map(found.mesh, range(len(found))), function))
+    return _orders(experiment.nodes, experiment.function, experiment.operate, count)
+
+
+@cache
+def _orders(nodes, function, swap, count):
+    mesh, u = problems.mesh(nodes), problems.functions[function]
+    found = local_optima(mesh, u, swap.criterion, swap.norm, count, SEED, swap.min_angle)
+    return OrderStudy(found, measured_all(map(found.mesh, range(len(found))), u))
 
 
 # -- noise ---------------------------------------------------------------------------------
@@ -107,16 +99,16 @@ def noise(key, magnitude, tolerance=None, trials=TRIALS):
     """Share of trials in which noise of this size changes a number: (measure, statistic) -> share.
 
     Nodal values get normal variates times ``magnitude`` added; the order is the natural
-    one.  Compared are the digits that the thesis prints, with those without noise.
+    one.  Compared are the digits that the thesis prints, with those without noise.  The
+    tolerance is that of swaps.
     """
     experiment, column = EXPERIMENTS[key], texts(key)
-    function = Remembered(problems.functions[experiment.function])
+    function = Remembered(problems.functions[experiment.function]) if experiment.function else None
     start, order = problems.mesh(experiment.nodes), problems.order(experiment.nodes)
-    values = function(*start.nodes.T)
+    values = function(*start.nodes.T) if function else np.zeros(start.n_nodes)
 
     def digits(values):
-        mesh = _adapted(experiment, start, values, order, tolerance)
-        found = measured(mesh, function)
+        found = measured(_adapted(experiment, start, values, order, tolerance), function)
         return np.array([printed.digits(found[which], text, 0) for which, text in column.items()])
     before = digits(values)
     normals = (np.random.default_rng([SEED, k]).standard_normal(len(values)) for k in range(trials))
@@ -140,21 +132,24 @@ def depends_on(key):
     """
     by_noise = noise(key, PROBE)
     return {which: {(False, False): "method", (True, False): "order", (False, True): "noise",
-                    (True, True): "both"}[_varies(key, which, text), bool(by_noise[which] > RARE)]
-            for which, text in texts(key).items()}
+                    (True, True): "both"}[_varies(found, texts(key)[which]), bool(by_noise[which] > RARE)]
+            for which, found in _by_order(key).items() if which in texts(key)}
 
 
-def _varies(key, which, text):
-    """Whether random orders change the digits of a number."""
+def _by_order(key):
+    """Measures under random orders of the edges: (measure, statistic) -> array."""
     experiment = EXPERIMENTS[key]
     if isinstance(experiment.operate, Swap):
-        found = orders(key).values(which)
-    else:
-        start, function = problems.mesh(experiment.nodes), problems.functions[experiment.function]
-        shuffled = (order_of(SEED, k, start.n_edges) for k in range(TRIALS))
-        meshes = [experiment.operate(start, function, order).mesh for order in shuffled]
-        found = measured_all(meshes, function)[which]
-    digits, counts = np.unique([printed.digits(v, text, 0) for v in found], return_counts=True)
+        study = orders(key)
+        return {which: study.values(which) for which in study.measures}
+    start, function = problems.mesh(experiment.nodes), problems.functions.get(experiment.function)
+    shuffled = (order_of(SEED, k, start.n_edges) for k in range(TRIALS))
+    return measured_all((experiment.operate(start, function, order).mesh for order in shuffled), function)
+
+
+def _varies(values, text):
+    """Whether the digits of a number differ in more than one case of a hundred."""
+    _, counts = np.unique([printed.digits(v, text, 0) for v in values], return_counts=True)
     return bool(1 - counts.max() / counts.sum() > RARE)
 
 
@@ -208,10 +203,10 @@ def _quartered(corners):
 
 
 def quadrature(number, points=(101, 200, 201)):
-    """The error behind a printed one by several trapezium rules, and settled."""
+    """The error behind a printed one by several trapezium rules, settled, and whether it was searched."""
     result = _result_behind(number)
     by_grid = [result.interpolant.l2_error(result.function, points=n) for n in points]
-    return *by_grid, settled_error(result.mesh, result.function)
+    return *by_grid, settled_error(result.mesh, result.function), EXPERIMENTS[number.experiment].certified
 
 
 def _result_behind(number):

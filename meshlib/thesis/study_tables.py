@@ -16,7 +16,8 @@ def title(key):
     """An experiment of edge swapping for people, for example ``SR2, 81, JND-L2``."""
     experiment = EXPERIMENTS[key]
     limit = f", {experiment.operate.min_angle:g}°" if experiment.operate.min_angle else ""
-    return f"{experiment.function}, {experiment.nodes}, {experiment.operate.title}{limit}"
+    shuffled = ", reordered" if experiment.shuffled else ""
+    return f"{experiment.function}, {experiment.nodes}, {experiment.operate.title}{limit}{shuffled}"
 
 
 def orders():
@@ -43,18 +44,17 @@ def shares():
 
 
 def percent(share):
-    """A share as a percentage, with two decimals where it is small but not 0."""
-    return f"{100 * share:.2f} %" if 0 < share < 0.01 else f"{100 * share:.0f} %"
+    """A share as a percentage, with two decimals where it is nearly, but not, 0 or 1."""
+    return f"{100 * share:.2f} %" if 0 < min(share, 1 - share) < 0.01 else f"{100 * share:.0f} %"
 
 
 def dependence():
     """What each printed number depends on: the method, the edge order, noise, or both."""
     rows = []
-    for key in (*studies.SWAPS, *studies.REFINEMENTS):
+    for key in filter(studies.texts, EXPERIMENTS):
         words = studies.depends_on(key)
-        if words:
-            name = title(key) if key in studies.SWAPS else key.replace("-", ", ", 2).replace("-", " ")
-            rows.append((name, *(words.get(which, "") for which in COLUMNS)))
+        name = title(key) if key in studies.SWAPS else key.replace("-", ", ", 2).replace("-", " ")
+        rows.append((name, *(words.get(which, "") for which in COLUMNS)))
     return markdown(grid(("Experiment", *COLUMNS.values()), rows))
 
 
@@ -64,9 +64,9 @@ def quadrature():
     rows = []
     for number in printed.numbers():
         if number.measure == L2[0]:
-            *by_grid, settled = studies.quadrature(number)
+            *by_grid, settled, searched = studies.quadrature(number)
             cells = [_marked(value, number.text) for value in by_grid]
-            rows.append((f"{number.table}, {number.column}", number.text, *cells,
+            rows.append((f"{number.table}, {number.column}" + searched * " (fitted)", number.text, *cells,
                          printed.digits(settled, number.text)))
     return markdown(grid(head, rows))
 

@@ -3,6 +3,7 @@ import numpy as np
 
 from ... import plotting
 from .. import printed, studies
+from ..experiments import EXPERIMENTS
 from ..measures import L2
 from ..study_tables import title
 
@@ -12,7 +13,7 @@ BINS, LARGEST_DOT = 30, 400
 LEAST_ROOM = 0.01  # beside the values, relative to them
 ROW, TALL, LEGEND = 1.25, 4.2, 0.9  # inches
 COLOURS = [plotting.PALETTE[c] for c in ("black", "orange", "sky", "green", "purple", "blue", "vermillion")]
-RULES = "a swap must gain more than the tolerance", "any gain makes a swap"
+RULES = "tolerance of the library", "its relative part alone"
 MARKERS = "osv^D*X"
 HEADS = {L2: "$L_2$ error", ("maximum_angle", "mean"): "maximum angle", ("skewness", "mean"): "skewness",
          ("aspect_ratio", "mean"): "aspect ratio", ("maximum_angle", "max"): "maximum angle",
@@ -51,7 +52,7 @@ def _distribution(ax, values, text):
     room = max(0.06 * (high - low), LEAST_ROOM * abs(high))
     ax.hist(values, BINS, (low - room, high + room), weights=np.full(len(values), 100 / len(values)),
             color=plotting.SECOND)
-    ax.axvline(text, color=plotting.ACCENT, linewidth=plotting.look.THICK)
+    ax.axvline(text, color=plotting.ACCENT, linewidth=plotting.look.THICK / 2)
     ax.set(yticks=[], xlim=(low - room, high + room))
     ax.xaxis.set_major_locator(plotting.look.pyplot().MaxNLocator(3))
     ax.spines[["top", "right", "left"]].set_visible(False)
@@ -62,7 +63,8 @@ def study_noise():
     figure, axes = plotting.panels(2, size=plotting.WIDTH / 2)
     figure.set_size_inches(plotting.WIDTH, plotting.WIDTH / 2.4 + LEGEND)
     for ax, tolerance in zip(axes, (None, 0.0), strict=True):
-        for key, colour, marker in zip(studies.SWAPS, COLOURS, MARKERS, strict=True):
+        keys = [key for key in studies.SWAPS if not EXPERIMENTS[key].shuffled]
+        for key, colour, marker in zip(keys, COLOURS, MARKERS, strict=True):
             shares = [max(studies.noise(key, m, tolerance).values()) for m in studies.MAGNITUDES]
             ax.plot(studies.MAGNITUDES, np.multiply(100, shares), color=colour, marker=marker, markersize=4,
                     label=title(key))
@@ -80,8 +82,8 @@ def study_angle_limits():
     figure.set_size_inches(1.6 * TALL, TALL)
     for criterion, colour in zip(studies.CRITERIA, (plotting.SECOND, plotting.ACCENT), strict=True):
         low, middle, high = np.quantile(studies.angle_limits(criterion), BAND, axis=1)
-        ax.fill_between(studies.ANGLES, low, high, color=colour, alpha=0.2, linewidth=0)
-        ax.plot(studies.ANGLES, middle, color=colour, marker=".", label=f"{criterion.upper()}-L2, median")
+        ax.fill_between(studies.ANGLES, low, high, color=colour, alpha=0.2, linewidth=0, step="pre")
+        ax.step(studies.ANGLES, middle, color=colour, label=f"{criterion.upper()}-L2, median")
         limit, key = PRINTED_AT[criterion]
         ax.plot(limit, float(studies.texts(key)[L2]), "s", color=plotting.PALETTE["black"], zorder=3,
                 label="printed" if criterion == "jnd" else None)
