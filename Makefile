@@ -1,6 +1,7 @@
 # Everything runs in .venv, which is made on first use from requirements.txt.
 PYTHON ?= python3
 WORKERS ?= 2
+NODES ?= 10000 100000
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -10,7 +11,7 @@ READY := $(VENV)/.ready
 export PYDEVD_DISABLE_FILE_VALIDATION := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help book test notebooks lock clean
+.PHONY: help book test notebooks bench lock clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
@@ -30,6 +31,9 @@ test: $(READY) ## Unit tests (both backends), doctests, notebooks against their 
 
 notebooks: $(READY) ## Run the notebooks in place and strip what changes from run to run
 	$(BIN)/python book/execute.py notebooks/*.ipynb
+
+bench: $(READY) ## Times against peers, about ten minutes for a million nodes: make bench NODES=1000000
+	$(BIN)/python benchmarks/run.py --nodes $(NODES)
 
 lock: ## Pin the newest versions that pyproject.toml allows in requirements.txt
 	$(PYTHON) -m venv $(VENV)-lock
