@@ -121,7 +121,7 @@ def _adapted(experiment, start, values, order, tolerance):
         return experiment.operate(start, values, order).mesh
     swap = experiment.operate
     procedure = prepared(start, values, swap.criterion, swap.norm, swap.min_angle, None, tolerance)
-    return Mesh._trusted(start.nodes, procedure.run(order).elements)
+    return procedure.swapped(order)
 
 
 def depends_on(key):
