@@ -1,6 +1,6 @@
 """How far the printed numbers can be trusted: many edge orders, noise, limits, quadrature, optima.
 
-Everything is seeded and computed when asked for; a study is computed once in a session.
+Everything is seeded and computed when asked for; a study is computed once in a process.
 """
 from dataclasses import dataclass
 from functools import cache
