@@ -109,9 +109,17 @@ def _count_up(lengths):
 
 
 def _deepest(point, candidate, depth, n_points):
+    """The candidate of greatest depth of each point, of several the first; -1 if all are outside.
+
+    The candidates of a point stand together, in ascending order.
+    """
     found = np.full(n_points, -1, dtype=np.int32)
-    order = np.lexsort((candidate, -depth, point))
-    best = order[np.unique(point[order], return_index=True)[1]]
+    new = np.diff(point, prepend=-1) != 0
+    if not new.any():
+        return found
+    most = np.fmax.reduceat(depth, np.flatnonzero(new))  # a flat element may give NaN
+    best = np.flatnonzero(depth == most[np.cumsum(new) - 1])
+    best = best[np.diff(point[best], prepend=-1) != 0]
     inside = best[depth[best] >= -INSIDE]
     found[point[inside]] = candidate[inside]
     return found
