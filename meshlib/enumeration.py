@@ -14,6 +14,7 @@ import numpy as np
 from . import checks
 from .candidates import Candidates
 from .errors import MeshError
+from .kernels.reference import from_smallest
 from .topology import canonical
 
 MOST_MESHES = 200_000
@@ -70,9 +71,6 @@ def _flipped(elements, turns):
     for (a, b), c in sorted(opposite.items()):
         d = opposite.get((b, a))
         if a < b and d is not None and turns[c, a, d] > 0 and turns[d, b, c] > 0:
-            old = {_turned(c, a, b), _turned(d, b, a)}
-            yield elements - old | {_turned(c, a, d), _turned(d, b, c)}
+            old = {from_smallest(c, a, b), from_smallest(d, b, a)}
+            yield elements - old | {from_smallest(c, a, d), from_smallest(d, b, c)}
 
-
-def _turned(a, b, c):
-    return min((a, b, c), (b, c, a), (c, a, b))

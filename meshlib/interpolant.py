@@ -89,7 +89,7 @@ class Interpolant:
         return x, y, self._raster(low, high, nx, ny)
 
     def _raster(self, low, high, nx, ny):
-        """Values on the grid from low to high; of common points flat elements decide last."""
+        """Values on the grid from low to high; flat elements come first, so that others decide."""
         from .kernels import raster
         from .kernels.backend import flat
         step = (high - low) / (nx - 1, ny - 1)

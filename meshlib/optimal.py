@@ -104,13 +104,14 @@ def _model(candidates, values, criterion, norm):
     """Costs, matrix and right-hand side of the equations."""
     points = np.column_stack([candidates.mesh.nodes, values])
     if criterion.on == "element":
-        weights = criterion.cost(*np.moveaxis(points[candidates.triangles], 1, 0)) ** norm
-        return weights, *candidates.balance(0)
+        found = criterion.cost(*np.moveaxis(points[candidates.triangles], 1, 0))
+        return checks.cost_vector(found, len(candidates), "empty triangle") ** norm, *candidates.balance(0)
     edge, left, right = candidates.pairs
     p, q = candidates.edges[edge].T
     apex_left, apex_right = (candidates.apex(edge, t) for t in (left, right))
-    pair = criterion.cost(*(points[n] for n in (p, q, apex_left, apex_right))) ** norm
-    return np.concatenate([np.zeros(len(candidates)), pair]), *candidates.balance(len(pair))
+    found = criterion.cost(*(points[n] for n in (p, q, apex_left, apex_right)))
+    costs = checks.cost_vector(found, len(edge), "pair of empty triangle") ** norm
+    return np.concatenate([np.zeros(len(candidates)), costs]), *candidates.balance(len(edge))
 
 
 def _solved(costs, matrix, right, seconds):

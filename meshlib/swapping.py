@@ -79,14 +79,14 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
         Swaps that create an angle below this many degrees are refused.
     min_area : float, optional
         Swaps that create an element below this area are refused.
+    tolerance : float, optional
+        Gain in the norm of the local cost below which no swap is made; see the notes
+        for the default.
     schedule : {"sweep", "queue"}
         ``"sweep"``, that of the thesis, goes through all edges again and again.
         ``"queue"`` inspects each edge once and then, first come, first served, those
         that a swap has touched; it is faster on large meshes, and another order leads
         to another local optimum.
-    tolerance : float, optional
-        Gain in the norm of the local cost below which no swap is made; see the notes
-        for the default.
 
     Returns
     -------

@@ -107,6 +107,15 @@ def test_what_is_no_sum_is_refused(square, arguments, message):
     assert str(error.value) == message
 
 
+@pytest.mark.parametrize("on, what", [("edge", "pair of empty triangle"), ("element", "empty triangle")])
+def test_costs_that_are_not_finite_are_named(square, on, what):
+    criterion = criteria.Criterion("nan", on, lambda *points: np.full(len(points[0]), np.nan))
+    with pytest.raises(MeshError) as error:
+        optimal(square, [0, 0, 1, 0], criterion)
+    assert str(error.value) == (f"cost: the cost of {what} 0 is nan; "
+                                "a criterion must return finite numbers of at least 0")
+
+
 def test_the_solver_stops_in_time():
     with pytest.raises(MeshError) as error:
         optimal(problems.mesh("81"), problems.SR2, "abn", 1, seconds=1e-3)

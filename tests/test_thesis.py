@@ -47,7 +47,7 @@ def test_table_5_1_is_exact_but_for_one_value_printed_twice(board):
 
 @pytest.mark.parametrize("key", CERTIFIED)
 def test_a_certificate_gives_its_whole_column(key):
-    result, column = experiments.run(key), studies.texts(key)
+    result, column = experiments.run(key), printed.texts(key)
     assert len(column) == 7
     for which, text in column.items():
         assert printed.matches(result.measures[which], text), which

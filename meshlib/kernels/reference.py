@@ -116,11 +116,11 @@ def _swap(apex, quad):
 
 
 def _elements(apex):
-    rows = {_from_smallest(a, b, c) for (a, b), c in apex.items()}
+    rows = {from_smallest(a, b, c) for (a, b), c in apex.items()}
     return np.array(sorted(rows), dtype=np.int32)
 
 
-def _from_smallest(a, b, c):
+def from_smallest(a, b, c):
     """The element turned so that its smallest node number comes first."""
     return min((a, b, c), (b, c, a), (c, a, b))
 
@@ -154,7 +154,7 @@ def _canonical(p, q, left, right):
 def _element_costs(cost, points, apex, quad):
     """Costs of the two elements at a-b, and of those at c-d instead."""
     a, b, c, d = quad
-    return tuple(cost(*np.moveaxis(points[[_from_smallest(*t) for t in pair]], 1, 0))
+    return tuple(cost(*np.moveaxis(points[[from_smallest(*t) for t in pair]], 1, 0))
                  for pair in ([(c, a, b), (d, b, a)], [(c, a, d), (d, b, c)]))
 
 

@@ -3,7 +3,7 @@ r"""What the procedure needs of a mesh before its first swap, in passes over fla
 Half-edge h = 3 t + k is the side of element t opposite its node k, as in `lop`.
 """
 from .backend import compiled
-from .costs import from_smallest
+from .costs import from_smallest, plane
 from .lop import after, before
 
 NOWHERE = -1
@@ -66,12 +66,10 @@ def twins(slot, twin, half):
 def planes(element, x, y, u, gx, gy, area):
     """Set gradient and doubled area of each element."""
     for t in range(len(area)):
-        a, b, c = from_smallest(element[3 * t], element[3 * t + 1], element[3 * t + 2])
-        bx, by, bu = x[b] - x[a], y[b] - y[a], u[b] - u[a]
-        cx, cy, cu = x[c] - x[a], y[c] - y[a], u[c] - u[a]
-        area[t] = bx * cy - cx * by
-        scale = area[t] if area[t] != 0 else float("nan")
-        gx[t], gy[t] = (bu * cy - cu * by) / scale, (bx * cu - cx * bu) / scale
+        corners = from_smallest(element[3 * t], element[3 * t + 1], element[3 * t + 2])
+        a, b, c = corners
+        area[t] = (x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a])
+        gx[t], gy[t] = plane(x, y, u, corners, area[t] if area[t] != 0 else float("nan"))
 
 
 @compiled

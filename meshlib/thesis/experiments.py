@@ -10,6 +10,7 @@ from functools import cache, cached_property
 
 from .. import Interpolant, Mesh, problems, refined, smoothed, swapped
 from ..checks import choice
+from ..swapping import prepared
 from . import certificates
 from .measures import measured
 
@@ -114,6 +115,10 @@ class Swap:
 
     def __call__(self, mesh, u, order):
         return swapped(mesh, u, self.criterion, self.norm, order, self.min_angle)
+
+    def prepared(self, mesh, values, tolerance=None):
+        """The procedure on these values, for any edge order."""
+        return prepared(mesh, values, self.criterion, self.norm, self.min_angle, None, tolerance)
 
     @property
     def title(self):

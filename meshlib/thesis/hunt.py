@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from .. import Mesh, problems
-from ..swapping import prepared
 from ..topology import canonical
 from . import printed
 from .certificates import Certificate
@@ -66,7 +65,11 @@ class Trial:
     @property
     def order(self):
         """Edge numbers in the order of inspection."""
-        return np.argsort(self.keys, kind="stable")
+        return _order(self.keys)
+
+
+def _order(keys):
+    return np.argsort(keys, kind="stable")
 
 
 @dataclass(frozen=True)
@@ -85,10 +88,10 @@ class Target:
         """Where it is looked for."""
         return HUNTS[self.key]
 
-    @cached_property
+    @property
     def texts(self):
         """(measure, statistic) -> printed text."""
-        return {(n.measure, n.statistic): n.text for n in printed.numbers() if n.experiment == self.key}
+        return printed.texts(self.key)
 
     @cached_property
     def function(self):
@@ -98,16 +101,15 @@ class Target:
     @cached_property
     def procedure(self):
         """The procedure on unperturbed values."""
-        swap, mesh = self.experiment.operate, problems.mesh(self.experiment.nodes)
-        return prepared(mesh, self.function(*mesh.nodes.T), swap.criterion, swap.norm, swap.min_angle, None,
-                        self.hunt.tolerance)
+        mesh = problems.mesh(self.experiment.nodes)
+        return self.experiment.operate.prepared(mesh, self.function(*mesh.nodes.T), self.hunt.tolerance)
 
     def trial(self, keys, noise, distance, before=None):
         """What edge keys and a perturbation lead to; ``before`` saves measuring the same mesh again."""
         procedure = self.procedure
         if noise.any():
             procedure = replace(procedure, values=procedure.values + noise)
-        mesh = procedure.swapped(np.argsort(keys, kind="stable"))
+        mesh = procedure.swapped(_order(keys))
         same = before is not None and mesh.equals(before.mesh)
         return Trial(keys, noise, mesh, before.distance if same else distance(mesh))
 

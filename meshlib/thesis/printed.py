@@ -5,6 +5,7 @@ the text that was printed, because its digits decide what matches.
 """
 from dataclasses import dataclass
 from decimal import ROUND_FLOOR, ROUND_HALF_UP, Decimal
+from functools import cache
 
 GEOMETRY = ("maximum_angle", "skewness", "aspect_ratio")
 ROWS = {"maximum_angle": "Maximum angle", "skewness": "Skewness",
@@ -133,6 +134,18 @@ def numbers():
     """
     return [number for table, columns in TABLES.items() for column in columns
             for number in _entries(table, column)]
+
+
+@cache
+def texts(experiment):
+    """What the thesis prints of an experiment: (measure, statistic) -> text.
+
+    Examples
+    --------
+    >>> texts("SR1-81")
+    {('l2_error', ''): '0.004325'}
+    """
+    return {(n.measure, n.statistic): n.text for n in numbers() if n.experiment == experiment}
 
 
 def _entries(table, column):

@@ -12,10 +12,10 @@ from ..enumeration import enumerated
 from ..interpolant import squared_errors
 from ..optima import LocalOptima, local_optima, order_of
 from ..optimal import optimal
-from ..swapping import prepared
 from . import printed
 from .experiments import EXPERIMENTS, Swap, natural, run
 from .measures import L2, Remembered, measured, measured_all
+from .printed import texts
 
 ORDERS = 10_000
 SEED = 2001
@@ -31,12 +31,6 @@ MIN_ERROR_DEGREE = 100  # tanh has poles near the cliff
 SMALL_NODES, SMALL_SEED = 10, 0
 
 SWAPS = tuple(key for key, e in EXPERIMENTS.items() if isinstance(e.operate, Swap))
-
-
-@cache
-def texts(key):
-    """What the thesis prints of an experiment: (measure, statistic) -> text."""
-    return {(n.measure, n.statistic): n.text for n in printed.numbers() if n.experiment == key}
 
 
 # -- many orders ---------------------------------------------------------------------------
@@ -119,9 +113,7 @@ def noise(key, magnitude, tolerance=None, trials=TRIALS):
 def _adapted(experiment, start, values, order, tolerance):
     if not isinstance(experiment.operate, Swap):
         return experiment.operate(start, values, order).mesh
-    swap = experiment.operate
-    procedure = prepared(start, values, swap.criterion, swap.norm, swap.min_angle, None, tolerance)
-    return procedure.swapped(order)
+    return experiment.operate.prepared(start, values, tolerance).swapped(order)
 
 
 def depends_on(key):

@@ -26,7 +26,7 @@ def orders():
             "Orders that give it", "Orders that give the column")
     rows = []
     for key in studies.SWAPS:
-        study, column = studies.orders(key), studies.texts(key)
+        study, column = studies.orders(key), printed.texts(key)
         errors = study.values(L2)
         spread = (f"{error:.5f}" for error in np.quantile(errors, (0, 0.5, 1)))
         rows.append((title(key), len(study.optima), *spread, column[L2],
@@ -38,7 +38,7 @@ def shares():
     """Share of the orders that give each printed number."""
     rows = []
     for key in studies.SWAPS:
-        study, column = studies.orders(key), studies.texts(key)
+        study, column = studies.orders(key), printed.texts(key)
         rows.append((title(key), *(percent(study.share(which, column[which])) for which in COLUMNS)))
     return markdown(grid(("Experiment", *COLUMNS.values()), rows))
 
@@ -51,7 +51,7 @@ def percent(share):
 def dependence():
     """What each printed number depends on: the method, the edge order, noise, or both."""
     rows = []
-    for key in filter(studies.texts, EXPERIMENTS):
+    for key in filter(printed.texts, EXPERIMENTS):
         words = studies.depends_on(key)
         name = title(key) if key in studies.SWAPS else key.replace("-", ", ", 2).replace("-", " ")
         rows.append((name, *(words.get(which, "") for which in COLUMNS)))

@@ -39,7 +39,7 @@ def _distributions(measures):
                                        figsize=(plotting.WIDTH, ROW * len(keys)))
         for key, row in zip(keys, rows, strict=True):
             for which, ax in zip(measures, row, strict=True):
-                _distribution(ax, studies.orders(key).values(which), float(studies.texts(key)[which]))
+                _distribution(ax, studies.orders(key).values(which), float(printed.texts(key)[which]))
             row[0].set_ylabel(title(key).replace(", ", "\n", 1), rotation=0, ha="right", va="center")
         for which, ax in zip(measures, rows[0], strict=True):
             ax.set_title(HEADS[which])
@@ -85,7 +85,7 @@ def study_angle_limits():
         ax.fill_between(studies.ANGLES, low, high, color=colour, alpha=0.2, linewidth=0, step="pre")
         ax.step(studies.ANGLES, middle, color=colour, label=f"{criterion.upper()}-L2, median")
         limit, key = PRINTED_AT[criterion]
-        ax.plot(limit, float(studies.texts(key)[L2]), "s", color=plotting.PALETTE["black"], zorder=3,
+        ax.plot(limit, float(printed.texts(key)[L2]), "s", color=plotting.PALETTE["black"], zorder=3,
                 label="printed" if criterion == "jnd" else None)
     ax.set(xlabel="no new angle below, degrees", ylabel="$L_2$ error")
     ax.legend()
