@@ -9,6 +9,7 @@ from .errors import missing_extra
 from .mesh import Mesh
 from .swapping import prepared
 from .topology import canonical
+from .watching import bar
 
 ORDERS_AT_ONCE = 500  # how many one worker takes
 
@@ -147,7 +148,7 @@ def shared(function, parts, workers=1, progress=False, unit="part", total=None):
     which knows the end if ``total`` is given.
     """
     results = _in_turn(function, parts) if workers == 1 else _in_parallel(function, parts, workers)
-    return _with_bar(results, total, unit) if progress else results
+    return bar(results, total=total, unit=unit) if progress else results
 
 
 def _in_turn(function, parts):
@@ -173,11 +174,3 @@ def _joblib():
     except ImportError:
         raise missing_extra("joblib", "studies") from None
     return joblib
-
-
-def _with_bar(results, total, unit):
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        raise missing_extra("tqdm", "studies") from None
-    return tqdm(results, total=total, unit=unit)
