@@ -96,6 +96,13 @@ def _count(nodes):
     return f"{nodes:,}" if nodes else ""
 
 
+def starting():
+    """Times of new processes."""
+    lines = [line for line in results()["results"] if line["measure"] == "starting"]
+    return markdown(grid(("In a new process", "Seconds"), [(line["name"], f"{median(line['times']):.3g}")
+                                                           for line in lines]))
+
+
 def everything():
     """All times and memory, a row for each call and kind of nodes."""
     sizes = sorted({line["nodes"] for line in results()["results"]} - {0})
