@@ -86,6 +86,9 @@ def markers(what, given, derived):
 
 def distinct_nodes(nodes):
     """Raise a MeshError that names the first pair of coinciding nodes."""
+    points = np.sort(np.ascontiguousarray(nodes).view(np.complex128), axis=None)  # by x, then by y
+    if (points[1:] != points[:-1]).all():
+        return
     order = np.lexsort((np.arange(len(nodes)), nodes[:, 1], nodes[:, 0]))
     same = np.flatnonzero((np.diff(nodes[order], axis=0) == 0).all(axis=1))
     if same.size:

@@ -46,9 +46,10 @@ def sides(elements, element_edges, n_edges):
     """
     rightward = (elements[:, TAILS] > elements[:, HEADS]).astype(np.int64)
     place = 2 * element_edges.astype(np.int64) + rightward
-    _refuse_shared_half_edges(elements, place)
     table = np.full(2 * n_edges, -1, dtype=np.int32)
     table[place] = np.arange(len(elements), dtype=np.int32)[:, None]
+    if np.count_nonzero(table >= 0) < place.size:
+        _refuse_shared_half_edges(elements, place)
     table = table.reshape(-1, 2)
     lonely = table[:, 0] < 0
     table[lonely] = table[lonely, ::-1]
