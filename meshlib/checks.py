@@ -97,6 +97,13 @@ def distinct_nodes(nodes):
         raise MeshError("duplicate", f"nodes {i} and {j} coincide at ({x}, {y}); keep one of them", (i, j))
 
 
+def unnamed(elements, n_nodes):
+    """Numbers of the nodes that belong to no element, in ascending order."""
+    used = np.zeros(n_nodes, dtype=bool)
+    used[elements] = True
+    return np.flatnonzero(~used)
+
+
 def nodal_values(mesh, values):
     """Values of u at the nodes as an (N,) float64 array.
 

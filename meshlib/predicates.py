@@ -125,12 +125,13 @@ def _turn(a, b, c):
 
 
 def _circle(a, b, c, d):
+    seen = [(p[..., 0] - d[..., 0], p[..., 1] - d[..., 1]) for p in (a, b, c)]
     value = size = 0
-    for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
-        px, py, qx, qy, rx, ry = (v for s in (p, q, r) for v in ((s - d)[..., 0], (s - d)[..., 1]))
-        lift = px * px + py * py
-        value = value + lift * (qx * ry - qy * rx)
-        size = size + lift * (abs(qx * ry) + abs(qy * rx))
+    for k in range(3):
+        (px, py), (qx, qy), (rx, ry) = seen[k:] + seen[:k]
+        lift, left, right = px * px + py * py, qx * ry, qy * rx
+        value = value + lift * (left - right)
+        size = size + lift * (abs(left) + abs(right))
     return value, size
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from .errors import MeshError
 
 TAILS, HEADS = [1, 2, 0], [2, 0, 1]
-MANY = 10_000  # elements from which on the kernel for edges pays, which gives the same
+MANY = 10_000  # elements from which on faster ways pay, which give the same
 
 
 def edge_table(elements, n_nodes):
@@ -97,7 +97,17 @@ def edge_numbers(edges, n_nodes, pairs):
 def canonical(elements):
     """Elements with their smallest node first, in lexicographic order."""
     turned = from_smallest(elements)
-    return turned[np.lexsort(turned.T[::-1])]
+    return turned[_lexicographic(turned)]
+
+
+def _lexicographic(elements):
+    """The order of elements by their nodes."""
+    if len(elements) >= MANY:  # where one sort of the first two nodes is faster than three
+        keys = (elements[:, 0].astype(np.int64) << 32) + elements[:, 1]
+        order = np.argsort(keys)
+        if np.diff(keys[order]).all():  # as in every valid mesh
+            return order
+    return np.lexsort(elements.T[::-1])
 
 
 def quadrilaterals(mesh, edges):

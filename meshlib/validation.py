@@ -6,6 +6,7 @@ numbers of the offending items.  All decisions are exact.
 import numpy as np
 
 from .boxes import BoxTree, bounds, least
+from .checks import distinct_nodes, unnamed
 from .errors import MeshError
 from .overlaps import common_area, first_overlap
 from .predicates import orientation
@@ -31,7 +32,6 @@ def index_range(mesh):
 
 def duplicate(mesh):
     """Nodes are distinct, and so are elements."""
-    from .checks import distinct_nodes
     distinct_nodes(mesh.nodes)
     if _surely_distinct(mesh):
         return None
@@ -66,9 +66,7 @@ orientation_.__name__ = "orientation"
 
 def unused_node(mesh):
     """Every node belongs to an element."""
-    used = np.zeros(mesh.n_nodes, dtype=bool)
-    used[mesh.elements] = True
-    unused = np.flatnonzero(~used)
+    unused = unnamed(mesh.elements, mesh.n_nodes)
     if unused.size:
         return f"node {unused[0]} belongs to no element; remove it or mesh it", unused
 
