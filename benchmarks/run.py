@@ -41,6 +41,16 @@ class Case:
         return ml.Mesh._trusted(self.nodes, self.mesh.elements)
 
 
+def meshing(case):
+    """The Delaunay mesh by exact decisions, against SciPy's."""
+    return lambda: ml.delaunay(case.nodes), lambda: Delaunay(case.nodes)
+
+
+def validation(case):
+    """All clauses for a mesh given by arrays, against SciPy's Delaunay."""
+    return lambda: ml.Mesh(case.nodes, case.mesh.elements).validate(), lambda: Delaunay(case.nodes)
+
+
 def swapping(case, criterion, norm):
     """Adjacency and edge swapping to local optimality, against SciPy's Delaunay."""
     def ours():
@@ -81,6 +91,8 @@ def refinement(case):
 
 
 MEASURES = {
+    "delaunay / Delaunay": meshing,
+    "validate / Delaunay": validation,
     "swap, JND-L2 / Delaunay": lambda case: swapping(case, "jnd", 2),
     "swap, ABN-L1 / Delaunay": lambda case: swapping(case, "abn", 1),
     "swap, ABN-L2 / Delaunay": lambda case: swapping(case, "abn", 2),
