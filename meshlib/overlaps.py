@@ -1,20 +1,21 @@
 """Elements that have area in common, found in nearly linear time.
 
 If some elements have area in common, then one that has an edge on the boundary has, next
-to that edge.  For take a path from a point inside several elements to a point outside
-the domain, which passes no node and crosses edges one place at a time, and on it the
-last place where the number of elements around falls from several to fewer than two::
+to that edge.  For take a path from a point inside two elements or more to a point
+outside the domain, which passes no node and no crossing of edges, and on it the last
+place before which there are two elements or more, and behind which one or none::
 
-      inside t, s, ...   |   inside one of s, ... or none
+        in t, s, ...     |     in one of s, ... or in none
      ---------->---------o--------->---------- path
                          |
                          edge of t on the boundary
 
 At an interior edge one element ends where another begins, since both are
 counter-clockwise.  So one of the edges at this place is on the boundary, and its element
-t ends here.  Before the place there is another element s, which has the place inside it
-or on a side.  This holds for every set of elements no two of which lie on the same side
-of an edge; its boundary is the sides without a neighbour in the set.
+t ends here.  Another element s before the place has area in common with t, and has the
+place inside it or on a side, so that its box touches that of the edge.  This holds for
+every set of elements no two of which lie on the same side of an edge; its boundary is the
+sides without a neighbour in the set.
 """
 import numpy as np
 
@@ -115,7 +116,7 @@ class _Sweep(_Elements):
         return free
 
     def _overlap_before(self, end, x):
-        """Whether elements before one in order overlap to the right of x."""
+        """Whether elements before one in order overlap; if they do, it is to the right of x."""
         some = np.flatnonzero(self.high[:end, 0] >= x)
         owners, sides = np.nonzero(self.neighbours[some] >= end)
         return self.overlap(some, some[owners], sides)
