@@ -1,144 +1,83 @@
-"""Times against peers, in one run on the same data: ``python benchmarks/run.py --nodes 100000``.
+"""Times and memory against peers, in one run on the same data.
 
-Every line is the median of several runs of ours and of the peer, taken in turn, and
-their ratio.  Results are printed as a table and, with ``--json``, written to a file
-together with the machine and the versions.
+    python benchmarks/run.py --nodes 10000 100000 1000000 --json benchmarks/results.json
+
+Each measure has a process of its own, in which ours and the peers take turns.  Results
+are printed and, with ``--json``, written to a file together with the machine and the
+versions; the page "Performance" of the report shows that file.
 """
 import argparse
 import json
+import os
 import platform
 import statistics
-import time
-from importlib.metadata import version
+import subprocess
+import sys
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-import numpy as np
-from scipy.interpolate import LinearNDInterpolator
-from scipy.spatial import Delaunay
+from cases import KINDS
+from measures import MEASURES
+from starting import measured as started
 
-import meshlib as ml
-from meshlib import problems
-from meshlib.renumbering import AlongCurve
-from meshlib.swapping import prepared
-
-GRID = 1000
-SHARE = 0.1
-PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "scikit-fem")
-
-
-class Case:
-    """Random nodes, their Delaunay mesh, and values of Franke's function."""
-
-    def __init__(self, n, seed=0):
-        rng = np.random.default_rng(seed)
-        self.nodes, self.points = rng.random((n, 2)), rng.random((2, n))
-        self.mesh = ml.delaunay(self.nodes)
-        self.u = problems.functions["franke"]
-        self.values = self.u(*self.nodes.T)
-
-    def fresh(self):
-        """The mesh with nothing derived from it yet."""
-        return ml.Mesh._trusted(self.nodes, self.mesh.elements)
-
-
-def meshing(case):
-    """The Delaunay mesh by exact decisions, against SciPy's."""
-    return lambda: ml.delaunay(case.nodes), lambda: Delaunay(case.nodes)
-
-
-def validation(case):
-    """All clauses for a mesh given by arrays, against SciPy's Delaunay."""
-    return lambda: ml.Mesh(case.nodes, case.mesh.elements).validate(), lambda: Delaunay(case.nodes)
-
-
-def swapping(case, criterion, norm):
-    """Adjacency and edge swapping to local optimality, against SciPy's Delaunay."""
-    def ours():
-        procedure = prepared(case.fresh(), case.values, criterion, norm, None, None, None)
-        AlongCurve(procedure).run(None)
-    return ours, lambda: Delaunay(case.nodes)
-
-
-def grid(case):
-    """Evaluation on a grid, against matplotlib, set-up included."""
-    from matplotlib.tri import LinearTriInterpolator, Triangulation
-    x = np.linspace(0, 1, GRID)
-
-    def peer():
-        mesh = Triangulation(*case.nodes.T, case.mesh.elements)
-        LinearTriInterpolator(mesh, case.values)(*np.meshgrid(x, x))
-    return lambda: ml.Interpolant(case.fresh(), case.values).on_grid(GRID), peer
-
-
-def scattered(case):
-    """Evaluation at as many points as nodes, against SciPy on the same mesh."""
-    triangulation = Delaunay(case.nodes)
-    return (lambda: ml.Interpolant(case.fresh(), case.values)(*case.points),
-            lambda: LinearNDInterpolator(triangulation, case.values)(*case.points))
-
-
-def refinement(case):
-    """Red-green refinement of a tenth of the elements, against scikit-fem."""
-    from skfem import MeshTri
-    marked = np.random.default_rng(1).permutation(case.mesh.n_elements)[:int(SHARE * case.mesh.n_elements)]
-    costs = np.zeros(case.mesh.n_elements)
-    costs[marked] = 1
-
-    def ours():
-        ml.refined(case.fresh(), case.values, ml.criteria.Criterion("marked", "element", lambda a, b, c: costs),
-                   SHARE, mark="element", split="red-green")
-    return ours, lambda: MeshTri(case.nodes.T, case.mesh.elements.T.astype(np.int64)).refined(marked)
-
-
-MEASURES = {
-    "delaunay / Delaunay": meshing,
-    "validate / Delaunay": validation,
-    "swap, JND-L2 / Delaunay": lambda case: swapping(case, "jnd", 2),
-    "swap, ABN-L1 / Delaunay": lambda case: swapping(case, "abn", 1),
-    "swap, ABN-L2 / Delaunay": lambda case: swapping(case, "abn", 2),
-    "grid / matplotlib": grid,
-    "scattered / SciPy": scattered,
-    "red-green / scikit-fem": refinement,
-}
-
-
-def timed(function):
-    """Seconds that a call takes."""
-    start = time.perf_counter()
-    function()
-    return time.perf_counter() - start
-
-
-def measured(case, name, runs):
-    """Medians of ours and of the peer, run in turn after one run that does not count."""
-    ours, peer = MEASURES[name](case)
-    ours()
-    pairs = [(timed(ours), timed(peer)) for _ in range(runs)]
-    first, second = (statistics.median(column) for column in zip(*pairs, strict=True))
-    return {"measure": name, "nodes": len(case.nodes), "ours": first, "peer": second, "ratio": first / second}
+HERE = Path(__file__).parent
+PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "scikit-fem", "pyvista", "vtk")
 
 
 def about():
     """The machine and the versions."""
-    return {"machine": platform.machine(), "python": platform.python_version(),
-            "versions": {name: version(name) for name in PACKAGES}}
+    return {"date": f"{__import__('datetime').date.today()}", "machine": platform.machine(),
+            "processor": _processor(), "cores": os.cpu_count(), "system": platform.system(),
+            "python": platform.python_version(),
+            "versions": {name: found for name in PACKAGES if (found := _version(name))}}
+
+
+def _processor():
+    info = Path("/proc/cpuinfo")
+    names = [line.split(":")[1].strip() for line in info.read_text().splitlines()
+             if line.startswith("model name")] if info.exists() else []
+    return names[0] if names else platform.processor()
+
+
+def _version(name):
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+def lines(measure, kind, n, runs):
+    """Results of one measure on one case, from a process of its own."""
+    command = [sys.executable, HERE / "meter.py", measure, kind, str(n), str(runs)]
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout)
+
+
+def show(line):
+    """Print one result."""
+    memory = "" if line["memory"] is None else f"{line['memory']:9.0f} MB"
+    print(f"{line['measure']:<11} {line['kind']:<10} {line['nodes']:>8} {line['who']:<5} {line['name']:<25} "
+          f"{statistics.median(line['times']):10.4f} s {memory}", flush=True)
 
 
 def main(arguments=None):
-    """Measure and print."""
+    """Measure, print and write."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--nodes", type=int, nargs="+", default=[10_000, 100_000])
+    parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS))
+    parser.add_argument("--measures", nargs="+", choices=MEASURES, default=list(MEASURES))
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--json", type=Path, help="write the results to this file")
     chosen = parser.parse_args(arguments)
-    results = []
-    print(f"{'measure':<26} {'nodes':>9} {'ours, s':>9} {'peer, s':>9} {'ours/peer':>9}")
-    for case in map(Case, chosen.nodes):
-        for name in MEASURES:
-            line = measured(case, name, chosen.runs)
-            results.append(line)
-            print(f"{name:<26} {line['nodes']:>9} {line['ours']:9.4f} {line['peer']:9.4f} {line['ratio']:9.4f}",
-                  flush=True)
+    results = started(chosen.runs)
+    for line in results:
+        show(line)
+    for n in chosen.nodes:
+        for kind in chosen.kinds:
+            for measure in chosen.measures:
+                found = lines(measure, kind, n, chosen.runs)
+                results += found
+                for line in found:
+                    show(line)
     if chosen.json:
         chosen.json.write_text(json.dumps(about() | {"results": results}, indent=1) + "\n")
 

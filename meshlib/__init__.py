@@ -1,7 +1,7 @@
 """Data-dependent triangulation: nodal values in, a better triangulation out."""
 from . import criteria, problems
 from .delaunay import delaunay
-from .errors import MeshError
+from .errors import Interrupted, MeshError
 from .interpolant import Interpolant
 from .mesh import Mesh
 from .movement import smoothed
@@ -14,5 +14,5 @@ from .swapping import swapped
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["Interpolant", "Mesh", "MeshError", "criteria", "delaunay",
+__all__ = ["Interpolant", "Interrupted", "Mesh", "MeshError", "criteria", "delaunay",
            "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped"]

@@ -20,9 +20,6 @@ of n edges, and the opposite nodes of the elements to their left and right.  An
 element cost gets its three nodes likewise, a node cost the `Interpolant`.  Costs
 must be at least 0, and larger where the mesh is worse.
 """
-from collections.abc import Callable
-from dataclasses import dataclass
-
 import numpy as np
 
 from . import checks
@@ -30,74 +27,20 @@ from .costs import (
     angle_between_normals,
     deviations_from_linear_polynomials,
     distances_from_planes,
-    element_errors,
     gradient_spread,
     jump_in_normal_derivatives,
     largest_angle,
     plane_gradients,
     smallest_angle,
 )
+from .criterion import Criterion
 from .errors import MeshError
-from .interpolant import Interpolant
+from .kernels import codes
 from .norms import precedes
-from .topology import quadrilaterals
+from .own_criteria import min_error, pointwise
 
-__all__ = ["Criterion", "costs", "get", "min_error", "names", "plane_gradients", "prefers",
+__all__ = ["Criterion", "costs", "get", "min_error", "names", "plane_gradients", "pointwise", "prefers",
            "register", "unregister"]
-
-PLACES = ("edge", "element", "node")
-ERROR_DEGREE = 6
-
-
-@dataclass(frozen=True)
-class Criterion:
-    """A cost function for the edges, elements or nodes of a mesh.
-
-    Parameters
-    ----------
-    name : str
-        Under which `register` files it.
-    on : {"edge", "element", "node"}
-    cost : callable
-        Vectorised, see the head of `meshlib.criteria`.
-    title : str, optional
-        For people to read.
-    unit : callable, optional
-        ``unit(extent, height)``: the size of a typical cost on data of this height
-        over a domain of this extent.  Differences below 1e-11 units are taken for
-        rounding noise; by default only relative differences count.
-    code : int, optional
-        Number of the compiled form in `meshlib.kernels.lop`; none for one's own.
-    geometric : bool
-        Whether the cost depends on the nodes alone, so that `prefers` needs no values.
-
-    Raises
-    ------
-    MeshError
-        If ``on`` is not one of the three places, or the cost not a function.
-    """
-
-    name: str
-    on: str
-    cost: Callable
-    title: str = ""
-    unit: Callable = lambda extent, height: 0.0
-    code: int = -1
-    geometric: bool = False
-
-    def __post_init__(self):
-        checks.choice(self.on, PLACES, "place")
-        if not callable(self.cost):
-            raise MeshError("type", f"the cost of {self.name!r} is {self.cost!r}; give a function")
-
-    def costs(self, mesh, values):
-        """The cost vector of a mesh: one cost for each edge, element or node."""
-        return _EVALUATE[self.on](self.cost, Interpolant(mesh, values))
-
-    def scale(self, mesh, values):
-        """Size of a typical cost, for the absolute part of a tolerance."""
-        extent = np.ptp(mesh.nodes, axis=0).max()
-        return float(self.unit(extent, np.ptp(values)))
 
 
 def costs(mesh, values, criterion="jnd"):
@@ -158,64 +101,6 @@ def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
     return precedes(first, second, norm)
 
 
-# -- evaluation over a mesh ---------------------------------------------------------
-
-
-def _on_edges(cost, u_h):
-    mesh = u_h.mesh
-    inner = np.flatnonzero(~mesh.boundary)
-    left, p, q, right = _points(u_h)[quadrilaterals(mesh, inner)[0].T]
-    found = cost(p, q, left, right)
-    vector = np.zeros(mesh.n_edges)
-    vector[inner] = checks.cost_vector(found, len(inner), "inner edge")
-    return vector
-
-
-def _on_elements(cost, u_h):
-    found = cost(*np.moveaxis(_points(u_h)[u_h.mesh.elements], 1, 0))
-    return checks.cost_vector(found, u_h.mesh.n_elements, "element")
-
-
-def _on_nodes(cost, u_h):
-    return checks.cost_vector(cost(u_h), u_h.mesh.n_nodes, "node")
-
-
-def _points(u_h):
-    return np.column_stack([u_h.mesh.nodes, u_h.values])
-
-
-_EVALUATE = {"edge": _on_edges, "element": _on_elements, "node": _on_nodes}
-
-
-def min_error(function, degree=ERROR_DEGREE):
-    """The min-error criterion (section 2.4.1) for a known function u.
-
-    Parameters
-    ----------
-    function : callable
-        Vectorised u(x, y).
-    degree : int
-        Polynomial degree of (u - u_h)^2 that the quadrature integrates exactly.
-
-    Returns
-    -------
-    Criterion
-        On elements; with norm 2 the norm of its cost vector is the L2 error.
-
-    Examples
-    --------
-    >>> from meshlib import Interpolant, delaunay
-    >>> mesh, u = delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]), lambda x, y: x ** 2
-    >>> cost = min_error(u).costs(mesh, u)
-    >>> bool(np.isclose(np.hypot(*cost), Interpolant(mesh, u).l2_error(u, rule="exact")))
-    True
-    """
-    def cost(a, b, c):
-        return element_errors(a, b, c, function, degree)
-    return Criterion("min-error", "element", cost, "L2 error",
-                     unit=lambda extent, height: height * extent)
-
-
 # -- the registry ------------------------------------------------------------------------
 
 _registry = {}
@@ -273,17 +158,17 @@ def get(criterion):
 
 for _criterion in (
     Criterion("jnd", "edge", jump_in_normal_derivatives, "jump in normal derivatives",
-              lambda extent, height: height / extent, code=0),
+              lambda extent, height: height / extent, code=codes.JND),
     Criterion("abn", "edge", angle_between_normals, "angle between normals",
-              lambda extent, height: min(1.0, height / extent), code=1),
+              lambda extent, height: min(1.0, height / extent), code=codes.ABN),
     Criterion("dlp", "edge", deviations_from_linear_polynomials, "deviations from linear polynomials",
-              lambda extent, height: height, code=2),
+              lambda extent, height: height, code=codes.DLP),
     Criterion("dfp", "edge", distances_from_planes, "distances from planes",
-              lambda extent, height: min(height, extent), code=3),
+              lambda extent, height: min(height, extent), code=codes.DFP),
     Criterion("smallest-angle", "element", smallest_angle, "smallest angle",
-              lambda extent, height: 1.0, code=4, geometric=True),
+              lambda extent, height: 1.0, code=codes.SMALLEST_ANGLE, geometric=True),
     Criterion("largest-angle", "element", largest_angle, "largest angle",
-              lambda extent, height: 1.0, code=5, geometric=True),
+              lambda extent, height: 1.0, code=codes.LARGEST_ANGLE, geometric=True),
     Criterion("gradient-spread", "node", gradient_spread, "spread of the gradients in the patch",
               lambda extent, height: height / extent),
 ):

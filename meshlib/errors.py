@@ -25,6 +25,26 @@ class MeshError(ValueError):
         self.items = tuple(int(i) for i in items)
 
 
+class Interrupted(KeyboardInterrupt):
+    """A run was interrupted (Ctrl-C); what it had reached is kept.
+
+    Attributes
+    ----------
+    result : object
+        What the function would have returned had it ended there; its mesh is valid.
+    """
+
+    def __init__(self, result):
+        super().__init__("stopped before the end; the mesh so far is in .result.mesh")
+        self.result = result
+
+
+def not_a_cost(a, b):
+    """The error for a cost around the edge a-b that a criterion must not return."""
+    return MeshError("cost", f"a cost around edge ({a}, {b}) is negative or not finite; "
+                     "a criterion must return finite numbers of at least 0", (a, b))
+
+
 def missing_extra(package, extra):
     """The error for an optional dependency that is not installed."""
     from . import DISTRIBUTION

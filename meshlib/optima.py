@@ -10,6 +10,7 @@ from .errors import missing_extra
 from .mesh import Mesh
 from .swapping import prepared
 from .topology import canonical
+from .watching import bar
 
 ORDERS_AT_ONCE = 500  # how many a worker takes at most
 PARTS = 64  # into which fewer orders are cut, so that every worker gets some
@@ -158,7 +159,7 @@ def shared(function, parts, workers=None, progress=False, unit="part", total=Non
     which knows the end if ``total`` is given.
     """
     results = _in_turn(function, parts) if _is_one(workers) else _in_parallel(function, parts, workers)
-    return _with_bar(results, total, unit) if progress else results
+    return bar(results, total=total, unit=unit) if progress else results
 
 
 def _is_one(workers):
@@ -191,11 +192,3 @@ def _joblib():
     except ImportError:
         raise missing_extra("joblib", "studies") from None
     return joblib
-
-
-def _with_bar(results, total, unit):
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        raise missing_extra("tqdm", "studies") from None
-    return tqdm(results, total=total, unit=unit)

@@ -8,14 +8,17 @@ from functools import cached_property
 import numpy as np
 
 from .criteria import Criterion
+from .errors import not_a_cost
+from .kernels import codes
 from .mesh import Mesh
 from .norms import norm_of
-from .topology import from_smallest
+from .topology import from_smallest, half_edges
 
 TRACE = np.dtype([("sweep", np.int32), ("edge", np.int32), ("a", np.int32), ("b", np.int32),
                   ("c", np.int32), ("d", np.int32), ("accepted", bool),
                   ("old", np.float64), ("new", np.float64)])
-NORM_CODES = {1: 1, 2: 2, "max": 0}  # SUM, SQUARES, MAXIMUM of the kernel
+NORM_CODES = {1: codes.SUM, 2: codes.SQUARES, "max": codes.MAXIMUM}
+UNLIMITED = np.iinfo(np.int64).max // 2
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,8 @@ class Outcome:
 class Procedure:
     """Algorithm 3.1.4 on one start mesh; ``run`` takes the order of the edges.
 
-    Arguments are those of `meshlib.swapped`, checked.
+    Arguments are those of `meshlib.swapped`, checked.  What is prepared for a run is
+    kept for further ones, unless it is to be used ``once``.
     """
 
     mesh: Mesh
@@ -50,8 +54,9 @@ class Procedure:
     norm: object
     limits: Limits
     tolerance: tuple
+    once: bool = False
 
-    def run(self, order, trace=False, schedule="sweep"):
+    def run(self, order, trace=False, schedule="sweep", watch=None):
         """Inspect the edges in this order until no swap is left to make.
 
         Parameters
@@ -61,13 +66,15 @@ class Procedure:
             Whether to record every tried swap.
         schedule : {"sweep", "queue"}
             Sweep after sweep, or each edge once and then those near swaps.
+        watch : Watch, optional
+            Is told how far the run is, and may stop it.
 
         Returns
         -------
         Outcome
         """
-        compiled = self.criterion.code >= 0 and self.norm in NORM_CODES
-        return (self._compiled if compiled else self._plain)(order, trace, schedule)
+        compiled = self.norm in NORM_CODES and self.criterion.is_compiled
+        return (self._compiled if compiled else self._plain)(order, trace, schedule, watch)
 
     def swapped(self, order):
         """The mesh that `run` leaves, without a record."""
@@ -77,32 +84,50 @@ class Procedure:
         """Norm of the cost vector of a mesh with the same nodes."""
         return norm_of(self.criterion.costs(mesh, self.values), self.norm)
 
-    def _compiled(self, order, trace, schedule):
-        from .kernels import lop  # with numba, which takes a while to load
-        state, arguments = self._arguments(order)
+    def _compiled(self, order, trace, schedule, watch):
+        from .kernels import schedules  # with numba, which takes a while to load
+        state, arguments = self._arguments()
+        order, tally = self._start(order)
         if trace and schedule == "sweep":
-            return self._traced(lop.sweep, state, arguments)
+            return self._traced(schedules, order, tally, state, arguments)
         # the trace of a queue may be of any length
         logs = _logs(self.run(order, False, schedule).tried if trace else 0)
-        done = {"sweep": lop.optimised, "queue": lop.drained}[schedule](*arguments, *logs)
-        return Outcome(_elements(state), *done, _rows(0, *logs, done[2] if trace else 0))
+        kernel = {"sweep": schedules.swept, "queue": schedules.drained}[schedule]
+        _watched(kernel, watch, order, tally, *arguments, *logs)
+        return self._outcome(state, tally, _rows(0, *logs, tally[codes.TRIES] if trace else 0))
 
-    def _arguments(self, order):
-        """A fresh copy of the state, and all that a kernel wants but the logs."""
+    def _start(self, order):
+        """Order and tally of a run that has done nothing yet."""
         from .kernels.backend import flat
-        state = tuple(array.copy() for array in self._state)
-        return state, (flat(order), self.criterion.code, NORM_CODES[self.norm], *self.tolerance,
+        tally = np.zeros(codes.FAULT + 1, dtype=np.int64)
+        tally[[codes.WAITING, codes.FAULT]] = len(order), -1
+        return flat(np.asarray(order, dtype=np.int32)), flat(tally)
+
+    def _arguments(self):
+        """A fresh copy of the state, and all that a kernel wants after order, tally and limit."""
+        state = self._new_state() if self.once else tuple(array.copy() for array in self._state)
+        return state, (self.criterion.code, self.criterion.pointer, NORM_CODES[self.norm], *self.tolerance,
                        self.limits.angle, 2 * self.limits.area, *self._data, *state)
 
-    def _traced(self, sweep, state, arguments):
-        rows, totals, logs = [], [], _logs(self.mesh.n_edges)
-        while not totals or totals[-1][0]:
-            totals.append(sweep(*arguments, *logs))
-            rows.append(_rows(len(totals), *logs, totals[-1][1]))
-        swaps, tried = (sum(column) for column in zip(*totals, strict=True))
-        return Outcome(_elements(state), swaps, len(totals), tried, np.concatenate(rows))
+    def _traced(self, schedules, order, tally, state, arguments):
+        rows, logs, done = [], _logs(len(order)), False
+        while not done:
+            before = tally[codes.TRIES]
+            schedules.sweep(order, tally, len(order), *arguments, *logs)
+            done = schedules.is_last(tally)
+            rows.append(_rows(len(rows) + 1, *logs, tally[codes.TRIES] - before))
+        return self._outcome(state, tally, np.concatenate(rows))
 
-    def _plain(self, order, trace, schedule):
+    def _outcome(self, state, tally, trace):
+        element, half = state[0], state[3]
+        if tally[codes.FAULT] >= 0:
+            h = int(half[tally[codes.FAULT]])
+            a, b = sorted(int(element[h - h % 3 + (h + step) % 3]) for step in (1, 2))
+            raise not_a_cost(a, b)
+        elements = np.array(element, dtype=np.int32).reshape(-1, 3)
+        return Outcome(elements, *(int(tally[k]) for k in (codes.SWAPS, codes.SWEEPS, codes.TRIES)), trace)
+
+    def _plain(self, order, trace, schedule, watch):
         from .kernels import reference
         procedure = {"sweep": reference.swapped, "queue": reference.drained}[schedule]
         elements, swaps, sweeps, tried = procedure(
@@ -117,27 +142,37 @@ class Procedure:
 
     @cached_property
     def _state(self):
+        return self._new_state()
+
+    def _new_state(self):
         """All that the kernel changes, before the first swap: the mesh, its planes and costs."""
         from .kernels import lop, setup
         from .kernels.backend import flat
-        mesh = self.mesh
-        element, twin, slot, half = (flat(v) for v in (mesh.elements, *mesh.half_edges))
+        mesh, code = self.mesh, self.criterion.code
+        element, (twin, slot, half) = flat(mesh.elements), half_edges(mesh.element_edges, mesh.n_edges)
         planes = tuple(flat(np.empty(mesh.n_elements)) for _ in range(3))
-        cost, settled = flat(np.zeros(mesh.n_edges)), flat(np.full(mesh.n_edges, lop.UNKNOWN, dtype=np.int8))
+        cost = flat(np.zeros(mesh.n_edges))
+        settled = flat(np.full(mesh.n_edges, codes.UNKNOWN, dtype=np.int8))
         setup.planes(element, *self._data, *planes)
-        if self.criterion.code < lop.SMALLEST_ANGLE:
-            lop.first_costs(self.criterion.code, *self._data[:2], element, twin, half, *planes, cost)
+        if code < codes.SMALLEST_ANGLE:
+            lop.first_costs(code, self.criterion.pointer, *self._data, element, twin, half, *planes, cost)
         return element, twin, slot, half, *planes, cost, settled
+
+
+def _watched(kernel, watch, order, tally, *arguments):
+    """Run a kernel to its end, part by part if somebody watches."""
+    if watch is None:
+        kernel(order, tally, UNLIMITED, *arguments)
+        return
+    while not (watch.stopped or kernel(order, tally, watch.part, *arguments)):
+        waiting = tally[codes.WAITING]  # all of them in a sweep
+        watch.report(tally[codes.PLACE] if waiting == len(order) else len(order) - waiting)
 
 
 def _logs(rows):
     """Room to record so many tried swaps."""
     from .kernels.backend import flat
     return flat(np.zeros(6 * rows, dtype=np.int64)), flat(np.zeros(2 * rows))
-
-
-def _elements(state):
-    return np.array(state[0], dtype=np.int32).reshape(-1, 3)
 
 
 def _rows(sweep, log, costs, count):

@@ -30,7 +30,7 @@ class Renumbered:
     def restored(self, elements):
         """Elements in the numbering and the rows of the mesh given."""
         found = np.empty_like(elements)
-        found[self.elements] = self.nodes.astype(elements.dtype)[elements]
+        found[self.elements] = np.take(self.nodes.astype(elements.dtype), elements)
         return found
 
 
@@ -45,17 +45,23 @@ def along_curve(mesh):
     >>> bool((found.restored(found.mesh.elements) == start.elements).all())
     True
     """
-    from .kernels import setup
-    from .kernels.backend import flat
-    low, high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
-    place = flat(np.empty(mesh.n_nodes, dtype=np.uint16))
-    setup.along_curve(*(flat(v) for v in ((mesh.nodes - low) / (high - low)).T), place, BITS)
-    place = np.asarray(place, dtype=np.uint16)
+    place = _places(mesh)
     nodes = np.argsort(place, kind="stable")
     elements = np.argsort(place[mesh.elements[:, 0]], kind="stable")
     number = np.empty(mesh.n_nodes, dtype=np.int32)
     number[nodes] = np.arange(mesh.n_nodes, dtype=np.int32)
-    return Renumbered(Mesh._trusted(mesh.nodes[nodes], number[mesh.elements[elements]]), nodes, elements)
+    rows = np.take(number, np.take(mesh.elements, elements, axis=0))
+    return Renumbered(Mesh._trusted(np.take(mesh.nodes, nodes, axis=0), rows), nodes, elements)
+
+
+def _places(mesh):
+    """The cell of each node, counted along the curve."""
+    from .kernels import setup
+    from .kernels.backend import flat, readable
+    low, high = mesh.box
+    place = flat(np.empty(mesh.n_nodes, dtype=np.uint16))
+    setup.along_curve(readable(mesh.nodes), *low.tolist(), *(high - low).tolist(), place, BITS)
+    return np.asarray(place, dtype=np.uint16)
 
 
 @dataclass(frozen=True)
@@ -70,12 +76,13 @@ class AlongCurve:
 
     @cached_property
     def _procedure(self):
-        return replace(self.given, mesh=self._curve.mesh, values=self.given.values[self._curve.nodes])
+        return replace(self.given, mesh=self._curve.mesh, values=self.given.values[self._curve.nodes],
+                       once=True)
 
-    def run(self, order, trace=False, schedule="queue"):
+    def run(self, order, trace=False, schedule="queue", watch=None):
         """As `Procedure.run`, with the edges in their order along the curve and not in the given one."""
         edges = np.arange(self._curve.mesh.n_edges, dtype=np.int32)
-        done = self._procedure.run(edges, trace, schedule)
+        done = self._procedure.run(edges, trace, schedule, watch)
         return replace(done, elements=self._curve.restored(done.elements), trace=self._restored(done.trace))
 
     def _restored(self, trace):

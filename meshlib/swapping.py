@@ -5,9 +5,11 @@ from functools import cached_property
 import numpy as np
 
 from . import checks, criteria, norms
+from .errors import Interrupted
 from .mesh import Mesh
 from .procedure import Limits, Procedure
 from .renumbering import AlongCurve
+from .watching import Watch
 
 SCHEDULES = ("sweep", "queue")
 LARGEST_MIN_ANGLE = 60.0
@@ -25,20 +27,26 @@ class Swapping:
     swaps, sweeps, tried : int
         Accepted swaps; sweeps over all edges, the last without a swap, or 0 with a
         queue; swaps tried.
-    cost_before, cost_after : float
-        Norm of the cost vector of the whole mesh; with the lexicographic order its
-        largest entry.
     """
 
     mesh: Mesh
     swaps: int
     sweeps: int
     tried: int
-    cost_before: float
-    cost_after: float
     _procedure: Procedure = field(repr=False, compare=False)
+    _runner: object = field(repr=False, compare=False)
     _order: np.ndarray = field(repr=False, compare=False)
     _schedule: str = field(repr=False, compare=False)
+
+    @cached_property
+    def cost_before(self):
+        """Norm of the cost vector of the start mesh; with the lexicographic order its largest entry."""
+        return self._procedure.cost(self._procedure.mesh)
+
+    @cached_property
+    def cost_after(self):
+        """The same of the swapped mesh."""
+        return self._procedure.cost(self.mesh)
 
     @cached_property
     def trace(self):
@@ -50,11 +58,11 @@ class Swapping:
         differ in the lexicographic order).  The procedure is deterministic, so the trace is
         made by running it again.
         """
-        return self._procedure.run(self._order, True, self._schedule).trace
+        return self._runner.run(self._order, True, self._schedule).trace[:self.tried]
 
 
 def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, min_area=None,
-            tolerance=None, schedule="sweep"):
+            tolerance=None, schedule="sweep", progress=False):
     """The mesh after the local optimisation procedure (Algorithm 3.1.4).
 
     Edges are inspected in order, sweep by sweep; an edge whose quadrilateral is
@@ -87,6 +95,9 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
         ``"queue"`` inspects each edge once and then, first come, first served, those
         that a swap has touched; it is faster on large meshes, and another order leads
         to another local optimum.
+    progress : bool
+        Whether to show a progress bar: edges inspected in this sweep, or those that no
+        longer wait in the queue.
 
     Returns
     -------
@@ -94,6 +105,9 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
 
     Raises
     ------
+    Interrupted
+        At an interrupt (Ctrl-C) while kernels run.  A KeyboardInterrupt, whose
+        ``result`` is the Swapping so far; its mesh is valid, but not yet optimal.
     MeshError
         If the mesh is not valid, a value is not finite, a criterion or norm is not
         known, the order is no permutation, or a limit is out of range.
@@ -116,8 +130,14 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     by noise alone, so that the result does not hang on the last bit.  The lexicographic
     order compares costs rounded to multiples of ``a`` instead.
 
-    Built-in edge and angle criteria run compiled where numba is installed; the
-    lexicographic order and one's own criteria run in Python.
+    Built-in edge and angle criteria, `criteria.pointwise` ones and the min-error
+    criterion run in kernels, compiled where numba is installed; the lexicographic order
+    and vectorised costs of one's own run in a slower form in Python.
+
+    *The default schedule* is that of the thesis, for every mesh: what comes out must
+    not depend on how large the mesh is.  Choose ``"queue"`` for large ones: nodes are
+    then also numbered along the curve while it runs, so that neighbours are near in
+    memory.
 
     Examples
     --------
@@ -128,15 +148,20 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     (56, 2)
     """
     checks.choice(schedule, SCHEDULES, "schedule")
-    along_curve = order is None and schedule == "queue"
     procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance)
-    mesh, order = procedure.mesh, checks.permutation(order, mesh.n_edges)
-    before = procedure.cost(mesh)
-    runner = AlongCurve(procedure) if along_curve else procedure
-    done = runner.run(order, schedule=schedule)
-    result = _swapped_mesh(mesh, done.elements) if done.swaps else mesh
-    return Swapping(result, done.swaps, done.sweeps, done.tried, before, procedure.cost(result),
-                    runner, order, schedule)
+    if order is None and schedule == "queue":
+        runner = AlongCurve(procedure)
+    else:
+        runner, order = procedure, checks.permutation(order, procedure.mesh.n_edges)
+    if procedure.criterion.is_own:
+        procedure.cost(procedure.mesh)  # refuses what is no cost, also where nothing will be swapped
+    with Watch(progress, procedure.mesh.n_edges if progress else 0, "edge") as watch:
+        done = runner.run(order, False, schedule, watch)
+    result = _swapped_mesh(procedure.mesh, done.elements) if done.swaps else procedure.mesh
+    found = Swapping(result, done.swaps, done.sweeps, done.tried, procedure, runner, order, schedule)
+    if watch.stopped:
+        raise Interrupted(found)
+    return found
 
 
 def prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance):
@@ -151,8 +176,8 @@ def prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance):
 
 def _swapped_mesh(mesh, elements):
     """The new mesh, with the green pairs whose elements are still in their rows."""
-    kept = (elements == mesh.elements).all(axis=1)
-    return Mesh._trusted(mesh.nodes, elements, mesh.green[kept[mesh.green].all(axis=1)])
+    kept = (elements[mesh.green] == mesh.elements[mesh.green]).all(axis=(1, 2))
+    return Mesh._trusted(mesh.nodes, elements, mesh.green[kept])
 
 
 def _limits(min_angle, min_area):

@@ -30,11 +30,11 @@ def edge_table(elements, n_nodes):
 def _edge_table_by_counting(elements, n_nodes):
     """The same by a kernel, which is faster where there is much to do."""
     from .kernels import setup
-    from .kernels.backend import flat
+    from .kernels.backend import flat, readable
     size, number = elements.size, np.int32
     slot, edges = flat(np.empty(size, dtype=number)), flat(np.empty(2 * size, dtype=number))
     rooms = (flat(np.zeros(n, dtype=number)) for n in (n_nodes + 1, size, size))
-    count = setup.edge_table(flat(elements), *rooms, slot, edges)
+    count = setup.edge_table(readable(elements), *rooms, slot, edges)
     return (np.array(edges[:2 * count], dtype=number).reshape(-1, 2),
             np.array(slot, dtype=number).reshape(-1, 3))
 
@@ -67,14 +67,14 @@ def half_edges(element_edges, n_edges):
     """Twin and edge of each half-edge, and one half-edge of each edge.
 
     Half-edge 3 t + k is the side of element t opposite its node k; its twin is the same
-    side seen from the neighbour, or -1.
+    side seen from the neighbour, or -1.  Flat, as kernels want them, and theirs to change.
     """
     from .kernels import setup
     from .kernels.backend import flat
     slot = flat(element_edges)
     twin, half = (flat(np.full(n, setup.NOWHERE, dtype=np.int32)) for n in (element_edges.size, n_edges))
     setup.twins(slot, twin, half)
-    return tuple(np.asarray(a, dtype=np.int32) for a in (twin, slot, half))
+    return twin, slot, half
 
 
 def from_smallest(elements):

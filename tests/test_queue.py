@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from meshlib import Mesh, MeshError, criteria, delaunay, problems, swapped
+from meshlib import MeshError, criteria, delaunay, problems, swapped
 from meshlib.renumbering import along_curve
-from meshlib.topology import MANY, edge_table
+from meshlib.topology import MANY, edge_table, half_edges
 from strategies import meshes, problems_of
 from support import as_set, is_delaunay, shuffled
 
@@ -96,10 +96,11 @@ def test_neighbours_in_the_plane_are_near_in_memory(rng):
 def test_the_curve_goes_from_cell_to_neighbouring_cell():
     """Hilbert's curve through 16 x 16 cells: each step has length one, each cell comes once."""
     from meshlib.kernels import setup
-    from meshlib.kernels.backend import flat
+    from meshlib.kernels.backend import flat, readable
     j, i = np.divmod(np.arange(256), 16)
     place = flat(np.zeros(256, dtype=np.uint16))
-    setup.along_curve(flat((i + 0.5) / 16), flat((j + 0.5) / 16), place, 4)
+    points = 3 + np.column_stack([i + 0.5, j + 0.5])
+    setup.along_curve(readable(points), 3.0, 3.0, 16.0, 16.0, place, 4)
     order = np.argsort(place)
     assert sorted(np.asarray(place).tolist()) == list(range(256))
     assert (np.abs(np.diff(i[order])) + np.abs(np.diff(j[order])) == 1).all()
@@ -118,8 +119,7 @@ def test_edges_by_counting_are_those_by_sorting(hole, rng, monkeypatch):
 
 def test_half_edges_by_hand(square):
     """Elements (0, 1, 2), (0, 2, 3): their common side is opposite node 1 of the first, node 3 of the second."""
-    twin, slot, half = square.half_edges
+    twin, slot, half = (np.asarray(v) for v in half_edges(square.element_edges, square.n_edges))
     assert twin.tolist() == [-1, 5, -1, -1, -1, 1]
     assert square.edges[slot].tolist() == [[1, 2], [0, 2], [0, 1], [2, 3], [0, 3], [0, 2]]
     assert slot[half].tolist() == list(range(5))
-    assert isinstance(Mesh(square.nodes, square.elements).half_edges[0], np.ndarray)

@@ -3,12 +3,11 @@
 Everything here is computed from the nodes of an element in an order that does not
 depend on the swaps before, so that it is the same number whenever the element occurs.
 """
-from math import atan2, sqrt
+from math import atan2, inf, sqrt
 
 from .backend import compiled, inlined
+from .codes import ABN, DFP, DLP, JND, SMALLEST_ANGLE, SQUARES, SUM
 
-JND, ABN, DLP, DFP, SMALLEST_ANGLE, LARGEST_ANGLE = range(6)
-SUM, SQUARES, MAXIMUM = 1, 2, 0
 FLAT = 1e-12  # relative area below which a quadrilateral is not strictly convex
 EQUILATERAL = 1.0471975511965976  # pi / 3
 
@@ -77,12 +76,25 @@ def edge_cost(code, g, A, h, B, length):
     return sqrt(over * over + under * under)
 
 
+@compiled
+def own_edge_cost(given, x, y, u, p, q, left, right):
+    """Cost of the edge p-q by a function of one's own, which sees it from its smaller node."""
+    if p > q:
+        p, q, left, right = q, p, right, left
+    return given(x[p], y[p], u[p], x[q], y[q], u[q], x[left], y[left], u[left], x[right], y[right], u[right])
+
+
 @inlined
-def side_cost(code, x, y, g, A, beyond, a, b, gx, gy, area):
-    """Cost of the outer edge a-b of the quadrilateral; 0 on the boundary."""
-    if beyond < 0:
+def side_cost(code, given, x, y, u, inner, g, A, j, a, b, element, gx, gy, area):
+    """Cost of the edge a-b, from the element on its left and the half-edge j beyond; 0 on the boundary.
+
+    The element is (a, b, inner), of gradient g and area A/2.
+    """
+    if j < 0:
         return 0.0
-    length = 1.0
+    if given is not None:
+        return own_edge_cost(given, x, y, u, a, b, inner, element[j])
+    length, beyond = 1.0, j // 3
     if code >= DLP:
         length = sqrt((x[a] - x[b]) ** 2 + (y[a] - y[b]) ** 2)
     return edge_cost(code, g, A, (gx[beyond], gy[beyond]), area[beyond], length)
@@ -96,12 +108,20 @@ def corner(x, y, a, b, c):
 
 
 @compiled
-def element_cost(code, x, y, corners):
-    """How far the smallest or largest angle of an element is from 60 degrees."""
+def element_cost(code, given, x, y, u, corners):
+    """How far the smallest or largest angle of an element is from 60 degrees, or a cost of one's own."""
     a, b, c = corners
+    if given is not None:  # it takes four points
+        return given(x[a], y[a], u[a], x[b], y[b], u[b], x[c], y[c], u[c], x[a], y[a], u[a])
     p, q, r = corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)
     excess = EQUILATERAL - min(p, q, r) if code == SMALLEST_ANGLE else max(p, q, r) - EQUILATERAL
     return max(excess, 0.0)  # not below 0 by rounding
+
+
+@compiled
+def are_costs(p, q, r, s, t):
+    """Whether all are finite and not negative."""
+    return 0 <= p < inf and 0 <= q < inf and 0 <= r < inf and 0 <= s < inf and 0 <= t < inf
 
 
 @compiled

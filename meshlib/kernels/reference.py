@@ -9,7 +9,7 @@ from collections import deque
 import numpy as np
 
 from .. import norms
-from ..errors import MeshError
+from ..errors import not_a_cost
 from ..interpolant import Interpolant
 from ..mesh import Mesh
 from ..quality import angles
@@ -88,8 +88,7 @@ class _State:
 def _finite(costs, a, b):
     if (np.isfinite(costs) & (np.asarray(costs) >= 0)).all():
         return costs
-    raise MeshError("cost", f"a cost around edge ({a}, {b}) is negative or not finite; "
-                    "a criterion must return finite numbers of at least 0", (a, b))
+    raise not_a_cost(a, b)
 
 
 def _deciding(old, new):

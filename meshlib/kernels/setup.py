@@ -73,11 +73,15 @@ def planes(element, x, y, u, gx, gy, area):
 
 
 @compiled
-def along_curve(x, y, place, bits):
-    """Set the place of each point of the unit square on Hilbert's curve through 4^bits cells."""
+def along_curve(points, low_x, low_y, width, height, place, bits):
+    """Set the place of each point of a box on Hilbert's curve through 4^bits cells of it.
+
+    Points are x, y, x, y, ...; the box has the corner (low_x, low_y).
+    """
     side = 1 << bits
     for n in range(len(place)):
-        i, j = min(int(x[n] * side), side - 1), min(int(y[n] * side), side - 1)
+        i = min(int((points[2 * n] - low_x) / width * side), side - 1)
+        j = min(int((points[2 * n + 1] - low_y) / height * side), side - 1)
         found, step = 0, side >> 1
         while step > 0:
             right, upper = (i & step) > 0, (j & step) > 0

@@ -1,0 +1,96 @@
+"""What is measured: for each measure calls of ours and of the best peers, on one case.
+
+A function returns two dictionaries of calls by name.  All take the same data and do the
+same work, set-up included.
+"""
+from importlib.util import find_spec
+
+import numpy as np
+
+import meshlib as ml
+
+GRID = 1000
+SHARE = 0.1
+PROCEDURES = {"JND-L2": ("jnd", 2), "ABN-L1": ("abn", 1), "ABN-L2": ("abn", 2)}
+
+
+def swapping(case):
+    """Adjacency and edge swapping to local optimality, against Qhull's Delaunay of the same nodes."""
+    from scipy.spatial import Delaunay
+
+    def ours(criterion, norm):
+        return lambda: ml.swapped(case.fresh(), case.values, criterion, norm, schedule="queue")
+    return ({name: ours(*arguments) for name, arguments in PROCEDURES.items()},
+            {"SciPy Delaunay": lambda: Delaunay(case.nodes)})
+
+
+def grid(case):
+    """Values on a grid of 1000 by 1000 points."""
+    from matplotlib.tri import LinearTriInterpolator, Triangulation
+    x = np.linspace(0, 1, GRID)
+
+    def matplotlib():
+        mesh = Triangulation(*case.nodes.T, case.mesh.elements)
+        LinearTriInterpolator(mesh, case.values)(*np.meshgrid(x, x))
+    return ({"on_grid": lambda: ml.Interpolant(case.fresh(), case.values).on_grid(GRID)},
+            {"matplotlib": matplotlib})
+
+
+def scattered(case):
+    """Values at as many random points as there are nodes, on the same mesh."""
+    from scipy.interpolate import LinearNDInterpolator
+    from scipy.spatial import Delaunay
+    triangulation = Delaunay(case.nodes)
+    return ({"Interpolant": lambda: ml.Interpolant(case.fresh(), case.values)(*case.points)},
+            {"SciPy LinearND": lambda: LinearNDInterpolator(triangulation, case.values)(*case.points)})
+
+
+def refinement(case):
+    """Refinement of a tenth of the elements, the same ones."""
+    from skfem import MeshTri
+    n = case.mesh.n_elements
+    marked = np.random.default_rng(1).permutation(n)[:int(SHARE * n)]
+    costs = np.zeros(n)
+    costs[marked] = 1
+    criterion = ml.criteria.Criterion("marked", "element", lambda a, b, c: costs)
+
+    def ours(split):
+        return lambda: ml.refined(case.fresh(), case.values, criterion, SHARE, mark="element", split=split)
+    nodes, elements = (np.ascontiguousarray(a.T) for a in (case.nodes, case.mesh.elements.astype(np.int64)))
+    return ({split: ours(split) for split in ("red-green", "longest-edge", "centroid")},
+            {"scikit-fem": lambda: MeshTri(nodes, elements).refined(marked)})
+
+
+def quality(case):
+    """A shape measure of every element; of the peers' the one most like it."""
+    ours = {"radius ratio": lambda: ml.quality(case.fresh())}
+    return ours, _vtk(case) if find_spec("pyvista") else {}
+
+
+def _vtk(case):
+    import pyvista
+    points = np.column_stack([case.nodes, np.zeros(len(case.nodes))])
+    elements = np.asarray(case.mesh.elements, dtype=np.int64)
+
+    def vtk():
+        pyvista.PolyData.from_regular_faces(points, elements).cell_quality("radius_ratio")
+    return {"VTK": vtk}
+
+
+def smoothing(case):
+    """One sweep of node movement with equal springs."""
+    return {"one sweep": lambda: ml.smoothed(case.fresh(), sweeps=1)}, {}
+
+
+def errors(case):
+    """The L2 error, by quadrature on each element."""
+    return {"exact": lambda: ml.Interpolant(case.fresh(), case.values).l2_error(case.u, "exact")}, {}
+
+
+def validation(case):
+    """Every clause of the definition of a mesh, for arrays from elsewhere."""
+    return {"validate": lambda: ml.Mesh(case.nodes, case.mesh.elements).validate()}, {}
+
+
+MEASURES = {"swapping": swapping, "grid": grid, "scattered": scattered, "refinement": refinement,
+            "quality": quality, "smoothing": smoothing, "errors": errors, "validation": validation}

@@ -1,0 +1,147 @@
+"""The results file as the tables and pictures of the page "Performance"."""
+import json
+from functools import cache
+from pathlib import Path
+from statistics import median
+
+from meshlib import plotting
+from meshlib.thesis.tables import grid, markdown
+
+RESULTS = Path(__file__).with_name("results.json")
+KINDS = ("random", "clustered", "gridded")
+MILLION = 1_000_000
+COLOUR = plotting.PALETTE
+MARKERS = "osv^D*X"
+# A goal: text, of which measure, nodes, what is divided by what ("ours" or a peer), and the limit.
+GOALS = (
+    *((f"adjacency and swapping with {name} / Delaunay", "swapping", MILLION, name, "SciPy Delaunay", "<=", goal)
+      for name, goal in (("JND-L2", 0.10), ("ABN-L1", 0.20), ("ABN-L2", 0.20))),
+    *(("matplotlib / values on a grid", "grid", n, "matplotlib", "on_grid", ">=", goal)
+      for n, goal in ((10_000, 35), (100_000, 90), (MILLION, 300))),
+    ("SciPy / values at scattered points", "scattered", MILLION, "SciPy LinearND", "Interpolant", ">=", 5),
+    ("scikit-fem / red-green refinement", "refinement", MILLION, "scikit-fem", "red-green", ">=", 3),
+    ("VTK / quality", "quality", MILLION, "VTK", "radius ratio", ">=", 1),
+)
+GROWTH = (("swapping", "JND-L2"), ("refinement", "red-green"), ("grid", "on_grid"), ("scattered", "Interpolant"),
+          ("quality", "radius ratio"))
+MOST_GROWTH = 13
+STARTS = {"import meshlib": 0.25, "first swapping, 81 nodes": 0.2, "without numba, 33 nodes": 0.006,
+          "without numba, 81 nodes": 0.006}
+
+
+@cache
+def results():
+    """What the last run wrote."""
+    return json.loads(RESULTS.read_text())
+
+
+def found(measure, kind, nodes, name, field="times"):
+    """Median seconds, or megabytes, of one call; None if it was not measured."""
+    for line in results()["results"]:
+        here = line["measure"], line["kind"], line["nodes"], line["name"]
+        if here == (measure, kind, nodes, name):
+            return median(line["times"]) if field == "times" else line[field]
+    return None
+
+
+def machine():
+    """The machine and the versions, in a sentence."""
+    about = results()
+    versions = ", ".join(f"{name} {number}" for name, number in about["versions"].items())
+    return markdown(f"Measured on {about['date']} on {about['cores']} cores of {about['processor']} "
+                    f"({about['system']}, {about['machine']}), Python {about['python']}, {versions}.")
+
+
+def goals():
+    """Every goal, what was measured, and whether that meets it."""
+    rows = [*_ratios(), *_growths(), *_memory(), *_starts()]
+    return markdown(grid(("Measure", "Nodes", "Goal", "Measured", ""), rows))
+
+
+def _ratios():
+    for text, measure, nodes, above, below, sign, goal in GOALS:
+        over, under = (found(measure, "random", nodes, name) for name in (above, below))
+        yield _row(text, nodes, sign, goal, over and under and over / under)
+
+
+def _growths():
+    for measure, name in GROWTH:
+        large, small = (found(measure, "random", n, name) for n in (MILLION, MILLION // 10))
+        yield _row(f"growth of {measure} ({name}), time at ten times the nodes / time", MILLION, "<=", MOST_GROWTH,
+                   large and small and large / small)
+
+
+def _memory():
+    ours, peer = (found("swapping", "random", MILLION, name, "memory") for name in ("JND-L2", "SciPy Delaunay"))
+    yield _row("peak memory of swapping / of Delaunay", MILLION, "<=", 1, ours and peer and ours / peer)
+
+
+def _starts():
+    for name, goal in STARTS.items():
+        yield _row(f"{name}, seconds", "", "<=", goal, found("starting", "", 0, name))
+
+
+def _row(text, nodes, sign, goal, value):
+    if value is None:
+        return text, _count(nodes), f"{_sign(sign)} {goal:g}", "not measured", ""
+    met = value <= goal if sign == "<=" else value >= goal
+    return text, _count(nodes), f"{_sign(sign)} {goal:g}", f"{value:.3g}", "met" if met else "missed"
+
+
+def _sign(sign):
+    return {"<=": "≤", ">=": "≥"}[sign]
+
+
+def _count(nodes):
+    return f"{nodes:,}" if nodes else ""
+
+
+def everything():
+    """All times and memory, a row for each call and kind of nodes."""
+    sizes = sorted({line["nodes"] for line in results()["results"]} - {0})
+    rows = [_times(measure, name, kind, sizes) for measure, name in _calls() for kind in KINDS]
+    return markdown(grid(("Measure", "Call", "Nodes are", *(f"{n:,}" for n in sizes)), rows))
+
+
+def _calls():
+    return dict.fromkeys((line["measure"], line["name"]) for line in results()["results"] if line["nodes"])
+
+
+def _times(measure, name, kind, sizes):
+    cells = []
+    for n in sizes:
+        time, memory = (found(measure, kind, n, name, field) for field in ("times", "memory"))
+        cells.append("" if time is None else f"{time:.3g} s" + ("" if memory is None else f", {memory:.0f} MB"))
+    return (measure, name, kind, *cells)
+
+
+def picture(*measures):
+    """Time against the number of nodes, a row of panels for each measure, a panel for each kind of nodes."""
+    pyplot = plotting.look.pyplot()
+    with plotting.style():
+        figure, rows = pyplot.subplots(len(measures), len(KINDS), layout="constrained", squeeze=False, sharey="row",
+                                       sharex=True, figsize=(plotting.WIDTH, 3.1 * len(measures)))
+        for measure, row in zip(measures, rows, strict=True):
+            for kind, ax in zip(KINDS, row, strict=True):
+                _curves(ax, measure, kind)
+            row[0].set_ylabel(f"{measure}, seconds")
+            row[-1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+        for kind, ax in zip(KINDS, rows[0], strict=True):
+            ax.set_title(kind)
+        for ax in rows[-1]:
+            ax.set_xlabel("nodes")
+    return figure
+
+
+def _curves(ax, measure, kind):
+    lines = [line for line in results()["results"] if (line["measure"], line["kind"]) == (measure, kind)]
+    names = list(dict.fromkeys(line["name"] for line in lines))
+    for name, marker, colour in zip(names, MARKERS, ("blue", "green", "sky", "orange", "black"), strict=False):
+        points = [(line["nodes"], median(line["times"]), line["who"]) for line in lines if line["name"] == name]
+        nodes, times, who = zip(*points, strict=True)
+        peer = who[0] == "peer"
+        ax.plot(nodes, times, marker=marker, markersize=5, label=name, linestyle="--" if peer else "-",
+                color=plotting.ACCENT if peer else COLOUR[colour])
+    ax.set(xscale="log", yscale="log")
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.grid(True, color=plotting.look.FAINT, linewidth=0.5)
