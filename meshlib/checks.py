@@ -86,12 +86,22 @@ def markers(what, given, derived):
 
 def distinct_nodes(nodes):
     """Raise a MeshError that names the first pair of coinciding nodes."""
+    points = np.sort(np.ascontiguousarray(nodes).view(np.complex128), axis=None)  # by x, then by y
+    if (points[1:] != points[:-1]).all():
+        return
     order = np.lexsort((np.arange(len(nodes)), nodes[:, 1], nodes[:, 0]))
     same = np.flatnonzero((np.diff(nodes[order], axis=0) == 0).all(axis=1))
     if same.size:
         i, j = order[same[0]], order[same[0] + 1]
         x, y = (float(v) for v in nodes[i])
         raise MeshError("duplicate", f"nodes {i} and {j} coincide at ({x}, {y}); keep one of them", (i, j))
+
+
+def unnamed(elements, n_nodes):
+    """Numbers of the nodes that belong to no element, in ascending order."""
+    used = np.zeros(n_nodes, dtype=bool)
+    used[elements] = True
+    return np.flatnonzero(~used)
 
 
 def nodal_values(mesh, values):

@@ -7,6 +7,7 @@ from .mesh import Mesh
 from .predicates import incircle, nearly_flat, orientation
 from .topology import canonical, quadrilaterals
 
+EDGES_AT_ONCE = 16_384
 NEW = (0, 3, 2), (3, 0, 1)  # (a, d, c) and (d, a, b) of a quadrilateral (a, b, c, d)
 
 
@@ -54,7 +55,7 @@ def delaunay(nodes):
     checks.distinct_nodes(nodes)
     _refuse_collinear(nodes)
     elements = _flipped_to_delaunay(nodes, _without_flat(nodes, _qhull(nodes)))
-    unused = np.setdiff1d(np.arange(len(nodes)), elements)
+    unused = checks.unnamed(elements, len(nodes))
     if unused.size:
         raise MeshError("unused node", f"node {unused[0]} is too close to others to be meshed; "
                         "remove it or move it", unused)
@@ -130,11 +131,10 @@ def _flipped_to_delaunay(nodes, elements):
     mesh = Mesh(nodes, elements)
     edges = np.flatnonzero(~mesh.boundary)
     while edges.size:
-        quads, pairs = quadrilaterals(mesh, edges)
-        wrong = _is_worse(nodes, *quads.T)
-        if not wrong.any():
+        wrong = _worse(mesh, edges)
+        if not wrong.size:
             break
-        quads, pairs = _independent(quads[wrong], pairs[wrong], mesh.n_elements)
+        quads, pairs = _independent(*quadrilaterals(mesh, wrong), mesh.n_elements)
         mesh = _swapped(mesh, quads, pairs)
         changed = np.zeros(mesh.n_elements, dtype=bool)
         changed[pairs] = True
@@ -150,9 +150,15 @@ def _swapped(mesh, quads, pairs):
     return Mesh(mesh.nodes, elements)
 
 
+def _worse(mesh, edges):
+    """Those of the edges that are to be swapped, looked at in parts that stay in the processor's memory."""
+    parts = (edges[k:k + EDGES_AT_ONCE] for k in range(0, len(edges), EDGES_AT_ONCE))
+    return np.concatenate([part[_is_worse(mesh.nodes, *quadrilaterals(mesh, part)[0].T)] for part in parts])
+
+
 def _is_worse(nodes, a, b, c, d):
     """Whether b-c is not Delaunay, or tied while a-d has the smallest node number."""
-    side = incircle(nodes[a], nodes[b], nodes[c], nodes[d])
+    side = incircle(*(nodes.take(n, axis=0) for n in (a, b, c, d)))
     tied = (side == 0) & (np.minimum(a, d) < np.minimum(b, c))
     return (side > 0) | tied
 

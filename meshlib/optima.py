@@ -1,4 +1,5 @@
 """Many edge orders: which local optima the local optimisation procedure reaches."""
+import sys
 import warnings
 from dataclasses import dataclass, field
 
@@ -11,7 +12,8 @@ from .swapping import prepared
 from .topology import canonical
 from .watching import bar
 
-ORDERS_AT_ONCE = 500  # how many one worker takes
+ORDERS_AT_ONCE = 500  # how many a worker takes at most
+PARTS = 64  # into which fewer orders are cut, so that every worker gets some
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,7 @@ def order_of(seed, number, n_edges):
 
 
 def local_optima(mesh, values, criterion="jnd", norm=2, orders=100, seed=0, min_angle=None,
-                 min_area=None, tolerance=None, workers=1, progress=False):
+                 min_area=None, tolerance=None, workers=None, progress=False):
     """Run the local optimisation procedure with many random edge orders (section 6.3).
 
     Parameters
@@ -86,9 +88,9 @@ def local_optima(mesh, values, criterion="jnd", norm=2, orders=100, seed=0, min_
         How many orders.
     seed : int
         Of the orders, at least 0.
-    workers : int
-        Processes to share the work, -1 for one on each core, not 0.  The result does not
-        depend on it.  The backend is that of joblib, so a Dask cluster will do too.
+    workers : int, optional
+        Processes to share the work, -1 for one on each core, not 0.  By default what
+        ``joblib.parallel_config`` says, else one.  The result does not depend on it.
     progress : bool
         Whether to show a progress bar.
 
@@ -100,6 +102,15 @@ def local_optima(mesh, values, criterion="jnd", norm=2, orders=100, seed=0, min_
     ------
     MeshError
         As `meshlib.swapped`, or if ``orders``, ``seed`` or ``workers`` is out of range.
+
+    Notes
+    -----
+    The orders are shared out by joblib, on the cores of one machine or, with ``dask`` and
+    ``distributed`` installed here and meshlib on every machine, on a cluster::
+
+        client = distributed.Client("scheduler:8786")  # or distributed.Client() for this machine
+        with joblib.parallel_config(backend="dask"):
+            found = local_optima(mesh, values, orders=100_000, progress=True)
 
     Examples
     --------
@@ -114,9 +125,9 @@ def local_optima(mesh, values, criterion="jnd", norm=2, orders=100, seed=0, min_
     """
     procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance)
     orders, seed = checks.whole(orders, 1, "orders"), checks.whole(seed, 0, "seed")
-    workers = checks.workers(workers)
-    starts = range(0, orders, ORDERS_AT_ONCE)
-    parts = [(procedure, seed, range(k, min(k + ORDERS_AT_ONCE, orders))) for k in starts]
+    workers = None if workers is None else checks.workers(workers)
+    size = min(ORDERS_AT_ONCE, -(-orders // PARTS))
+    parts = [(procedure, seed, range(k, min(k + size, orders))) for k in range(0, orders, size)]
     return _merged(procedure, seed, list(shared(_distinct, parts, workers, progress, total=len(parts))))
 
 
@@ -141,14 +152,21 @@ def _merged(procedure, seed, parts):
     return LocalOptima(procedure.mesh, elements, costs, np.concatenate(optimum), seed)
 
 
-def shared(function, parts, workers=1, progress=False, unit="part", total=None):
+def shared(function, parts, workers=None, progress=False, unit="part", total=None):
     """Results of ``function(*part)`` for each part, in order, from many workers.
 
     A generator: who stops asking stops the work.  With ``progress`` a bar is shown,
     which knows the end if ``total`` is given.
     """
-    results = _in_turn(function, parts) if workers == 1 else _in_parallel(function, parts, workers)
+    results = _in_turn(function, parts) if _is_one(workers) else _in_parallel(function, parts, workers)
     return bar(results, total=total, unit=unit) if progress else results
+
+
+def _is_one(workers):
+    """Whether there is one worker; for None joblib tells, if it has been imported to be told of others."""
+    if workers is None and "joblib" in sys.modules:
+        return sys.modules["joblib"].effective_n_jobs(None) == 1
+    return workers in (None, 1)
 
 
 def _in_turn(function, parts):

@@ -5,6 +5,8 @@ A determinant in floating point comes with a bound on its rounding error
 where it does not are scaled to integers, which Python multiplies exactly, and
 put through the *same* formula.
 """
+from itertools import combinations
+
 import numpy as np
 
 ROUNDOFF = 2.0 ** -53
@@ -103,11 +105,17 @@ def _sign(formula, bound, *points):
         value, size = formula(*points)
         decided = np.abs(value) > bound * size + np.finfo(float).tiny
     signs = np.asarray(np.where(decided, np.sign(value), 0), dtype=np.int8)
-    undecided = ~np.asarray(decided)
+    undecided = np.array(~decided)
+    undecided[undecided] = _distinct(p[undecided] for p in points)
     if undecided.any():
         exact, _ = formula(*_as_integers([p[undecided] for p in points]))
         signs[undecided] = (exact > 0).astype(np.int8) - (exact < 0).astype(np.int8)
     return signs
+
+
+def _distinct(points):
+    """Whether no two points coincide; where two do, both predicates are 0."""
+    return ~np.any([(p == q).all(axis=-1) for p, q in combinations(points, 2)], axis=0)
 
 
 def _turn(a, b, c):
@@ -117,12 +125,13 @@ def _turn(a, b, c):
 
 
 def _circle(a, b, c, d):
+    seen = [(p[..., 0] - d[..., 0], p[..., 1] - d[..., 1]) for p in (a, b, c)]
     value = size = 0
-    for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
-        px, py, qx, qy, rx, ry = (v for s in (p, q, r) for v in ((s - d)[..., 0], (s - d)[..., 1]))
-        lift = px * px + py * py
-        value = value + lift * (qx * ry - qy * rx)
-        size = size + lift * (abs(qx * ry) + abs(qy * rx))
+    for k in range(3):
+        (px, py), (qx, qy), (rx, ry) = seen[k:] + seen[:k]
+        lift, left, right = px * px + py * py, qx * ry, qy * rx
+        value = value + lift * (left - right)
+        size = size + lift * (abs(left) + abs(right))
     return value, size
 
 

@@ -5,11 +5,12 @@ numbers of the offending items.  All decisions are exact.
 """
 import numpy as np
 
+from .boxes import BoxTree, bounds, least
+from .checks import distinct_nodes, unnamed
 from .errors import MeshError
+from .overlaps import common_area, first_overlap
 from .predicates import orientation
-from .topology import HEADS, TAILS
 
-PAIRS_AT_ONCE = 1_000_000
 MIDDLE = 1e-9  # how far, relatively, the node of a green pair may lie off the middle of an edge
 
 
@@ -31,8 +32,9 @@ def index_range(mesh):
 
 def duplicate(mesh):
     """Nodes are distinct, and so are elements."""
-    from .checks import distinct_nodes
     distinct_nodes(mesh.nodes)
+    if _surely_distinct(mesh):
+        return None
     rows = np.sort(mesh.elements, axis=1)
     order = np.lexsort((np.arange(len(rows)), *rows.T[::-1]))
     same = np.flatnonzero((np.diff(rows[order], axis=0) == 0).all(axis=1))
@@ -64,7 +66,7 @@ orientation_.__name__ = "orientation"
 
 def unused_node(mesh):
     """Every node belongs to an element."""
-    unused = np.setdiff1d(np.arange(mesh.n_nodes), mesh.elements)
+    unused = unnamed(mesh.elements, mesh.n_nodes)
     if unused.size:
         return f"node {unused[0]} belongs to no element; remove it or mesh it", unused
 
@@ -72,26 +74,27 @@ def unused_node(mesh):
 def overlap(mesh):
     """No two elements have area in common."""
     _ = mesh.edge_elements  # two elements on the same side of an edge are found here
-    for i, j in _pairs_of_touching_boxes(mesh):
-        found = np.flatnonzero(~_separated(mesh, i, j))
-        if found.size:
-            i, j = sorted((int(i[found[0]]), int(j[found[0]])))
-            area = common_area(mesh.corners[i], mesh.corners[j])
-            return (f"elements {i} and {j} overlap by an area of {area:.6g}; "
-                    "remove one or untangle their nodes", (i, j))
+    pair = first_overlap(mesh)
+    if pair:
+        i, j = sorted(pair)
+        area = common_area(mesh.corners[i], mesh.corners[j])
+        return (f"elements {i} and {j} overlap by an area of {area:.6g}; "
+                "remove one or untangle their nodes", (i, j))
 
 
 def hanging_node(mesh):
     """No node lies inside an edge of an element (Figure 2.1)."""
     edges = mesh.edges[mesh.boundary]
     nodes = np.flatnonzero(mesh.boundary_nodes)
-    for e, n in _nodes_near(mesh, edges, nodes):
-        inside = _strictly_between(mesh.nodes, edges[e], n)
+    nodes = nodes[np.argsort(mesh.nodes[nodes, 0], kind="stable")]
+    tree = BoxTree(mesh.nodes[nodes], mesh.nodes[nodes])
+    for e, n in tree.touching(*bounds(*mesh.nodes[edges.T])):
+        inside = _strictly_between(mesh.nodes, edges[e], nodes[n])
         if inside.any():
-            first = inside.argmax()
-            t = mesh.edge_elements[mesh.boundary][e[first], 0]
-            return (f"node {n[first]} hangs on edge {_tuple(edges[e[first]])} of element {t}; "
-                    "split the element there", (n[first], t))
+            e, n = least(e[inside], n[inside])
+            t = mesh.edge_elements[mesh.boundary][e, 0]
+            return (f"node {nodes[n]} hangs on edge {_tuple(edges[e])} of element {t}; "
+                    "split the element there", (nodes[n], t))
 
 
 def green_pair(mesh):
@@ -116,32 +119,12 @@ def halved(nodes, elements, pairs):
     return (m == n) & (c == d) & (off <= MIDDLE * np.abs(nodes[a] - nodes[b]).max(axis=1))
 
 
-def common_area(first, second):
-    """Area that two counter-clockwise triangles have in common.
-
-    The second is cut by the three half-planes of the first, one after the other.
-    """
-    polygon = list(np.asarray(second, dtype=float))
-    for a, b in zip(first, np.roll(first, -1, axis=0), strict=True):
-        polygon = _cut(polygon, a, b)
-    if len(polygon) < 3:
-        return 0.0
-    x, y = np.transpose(polygon)
-    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
-
-
-def _cut(polygon, a, b):
-    """The part of a polygon to the left of the line a -> b."""
-    def height(p):
-        return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
-    kept = []
-    for p, q in zip(polygon, polygon[1:] + polygon[:1], strict=True):
-        hp, hq = height(p), height(q)
-        if hp >= 0:
-            kept.append(p)
-        if hp * hq < 0:
-            kept.append(p + (q - p) * hp / (hp - hq))
-    return kept
+def _surely_distinct(mesh):
+    """Whether elements differ in a key of their nodes, which is quickly sorted."""
+    a, b, c = mesh.elements.astype(np.uint64).T
+    (low, high), n = bounds(a, b, c), np.uint64(mesh.n_nodes)
+    keys = np.sort((low * n + high) * n + (a + b + c))  # modulo 2^64
+    return bool((keys[1:] != keys[:-1]).all())
 
 
 def _tuple(numbers):
@@ -150,53 +133,6 @@ def _tuple(numbers):
 
 def _turns(mesh):
     return orientation(*np.moveaxis(mesh.corners, 1, 0))
-
-
-def _separated(mesh, i, j):
-    """Whether a side of one of the elements i, j has the other to its right."""
-    apart = np.zeros(len(i), dtype=bool)
-    for s, t in ((i, j), (j, i)):
-        tail, head = mesh.corners[s][:, TAILS], mesh.corners[s][:, HEADS]
-        turns = orientation(tail[:, :, None], head[:, :, None], mesh.corners[t][:, None, :])
-        apart |= (turns <= 0).all(axis=2).any(axis=1)
-    return apart
-
-
-def _pairs_of_touching_boxes(mesh):
-    """Pairs of elements whose bounding boxes overlap, in batches."""
-    low, high = mesh.corners.min(axis=1), mesh.corners.max(axis=1)
-    order = np.argsort(low[:, 0], kind="stable")
-    ends = np.searchsorted(low[order, 0], high[order, 0], side="left")
-    for first, second in _ranges(np.arange(1, len(order) + 1), ends):
-        i, j = order[first], order[second]
-        touching = (low[i, 1] < high[j, 1]) & (low[j, 1] < high[i, 1])
-        yield i[touching], j[touching]
-
-
-def _nodes_near(mesh, edges, nodes):
-    """Pairs (edge, node) with the node in the edge's range of x, in batches."""
-    x = mesh.nodes[edges, 0]
-    nodes = nodes[np.argsort(mesh.nodes[nodes, 0], kind="stable")]
-    starts = np.searchsorted(mesh.nodes[nodes, 0], x.min(axis=1), side="left")
-    ends = np.searchsorted(mesh.nodes[nodes, 0], x.max(axis=1), side="right")
-    for e, n in _ranges(starts, ends):
-        y = mesh.nodes[edges[e], 1]
-        level = mesh.nodes[nodes[n], 1]
-        near = (y.min(axis=1) <= level) & (level <= y.max(axis=1))
-        yield e[near], nodes[n[near]]
-
-
-def _ranges(starts, ends):
-    """All pairs (row, column) with starts[row] <= column < ends[row], in batches."""
-    lengths = (ends - starts).clip(min=0)
-    totals = np.concatenate([[0], np.cumsum(lengths)])
-    row = 0
-    while row < len(lengths):
-        last = max(row + 1, np.searchsorted(totals, totals[row] + PAIRS_AT_ONCE, side="right") - 1)
-        rows = np.repeat(np.arange(row, last), lengths[row:last])
-        columns = np.arange(len(rows)) - (totals[rows] - totals[row]) + starts[rows]
-        yield rows, columns
-        row = last
 
 
 def _strictly_between(nodes, edges, n):

@@ -6,7 +6,7 @@ import pickle
 import numpy as np
 import pytest
 
-from meshlib import Mesh, MeshError, delaunay
+from meshlib import Mesh, MeshError, delaunay, topology
 from support import lattice
 
 DERIVED = ("edges", "element_edges", "edge_elements", "neighbours", "boundary",
@@ -224,3 +224,15 @@ def test_wrong_arrays_are_refused(square, change, message):
     with pytest.raises(MeshError) as error:
         Mesh.from_arrays(*change(*square.to_arrays()))
     assert str(error.value) == message
+
+
+def test_many_elements_are_ordered_as_few(rng, monkeypatch):
+    """By their nodes from the smallest on, also where two elements share their first two nodes."""
+    mesh = delaunay(rng.random((50, 2)))
+    for elements in (rng.permutation(mesh.elements), np.vstack([mesh.elements, mesh.elements[:3]]),
+                     np.array([[0, 1, 3], [2, 0, 1], [0, 1, 2]])):
+        few = topology.canonical(elements)
+        assert few.tolist() == sorted(few.tolist())
+        with monkeypatch.context() as patch:
+            patch.setattr(topology, "MANY", 1)
+            assert np.array_equal(topology.canonical(elements), few)

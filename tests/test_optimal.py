@@ -150,12 +150,26 @@ def test_the_best_of_them_costs_least():
 
 
 @pytest.mark.parametrize("workers", [2, -1])
-def test_workers_do_not_change_the_result(workers, monkeypatch):
+def test_workers_do_not_change_the_result(workers):
     pytest.importorskip("joblib")
-    monkeypatch.setattr("meshlib.optima.ORDERS_AT_ONCE", 7)
     arguments = problems.mesh("33"), problems.functions["franke"], "jnd"
     alone, shared = (local_optima(*arguments, orders=40, workers=n) for n in (1, workers))
     assert np.array_equal(alone.elements, shared.elements) and np.array_equal(alone.optimum, shared.optimum)
+
+
+@pytest.mark.parametrize("orders, most, parts", [(3, 500, 3), (64, 500, 64), (100, 500, 50), (100, 1, 100)])
+def test_even_a_few_orders_are_shared_out(square, orders, most, parts, monkeypatch):
+    """64 parts or fewer, unless they get too large: 100 orders are 50 times two."""
+    sizes = []
+
+    def shared(function, parts, *_, total):
+        sizes.extend(len(numbers) for *_, numbers in parts)
+        assert total == len(parts)
+        return [function(*part) for part in parts]
+    monkeypatch.setattr("meshlib.optima.shared", shared)
+    monkeypatch.setattr("meshlib.optima.ORDERS_AT_ONCE", most)
+    local_optima(square, [0, 0, 1, 0], orders=orders)
+    assert (len(sizes), sum(sizes)) == (parts, orders)
 
 
 @pytest.mark.parametrize("arguments, message", [

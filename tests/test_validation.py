@@ -2,8 +2,7 @@
 import numpy as np
 import pytest
 
-from meshlib import Mesh, MeshError, delaunay, validation
-from support import lattice
+from meshlib import Mesh, MeshError, validation
 
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
 
@@ -109,18 +108,6 @@ def test_common_area_of_triangles(clip, area):
     unit = np.array([[0.0, 0], [1, 0], [0, 1]])
     assert validation.common_area(unit, np.array(clip, dtype=float)) == pytest.approx(area)
     assert validation.common_area(np.array(clip, dtype=float), unit) == pytest.approx(area)
-
-
-def test_pairs_are_found_in_batches_too(monkeypatch):
-    """The same decisions whatever the size of a batch."""
-    mesh = delaunay(lattice(3, 3))
-    wrong = Mesh(np.vstack([mesh.nodes, [[0.1, 0.1], [0.3, 0.1], [0.2, 0.3]]]),
-                 np.vstack([mesh.elements, [[16, 17, 18]]]))
-    for size in (1, 7, 1_000_000):
-        monkeypatch.setattr(validation, "PAIRS_AT_ONCE", size)
-        mesh.validate()
-        with pytest.raises(MeshError, match="^overlap: elements .* overlap by an area of "):
-            wrong.validate()
 
 
 @pytest.mark.parametrize("green, message", [
