@@ -18,13 +18,18 @@ MANY = 10_000  # elements from which on faster ways pay, which give the same
 
 def edge_table(elements, n_nodes):
     """Edges in lexicographic order, and the edge opposite each node of each element."""
-    if len(elements) >= MANY:
+    if len(elements) >= MANY and _kernels_are_compiled():
         return _edge_table_by_counting(elements, n_nodes)
     ends = np.stack([elements[:, TAILS], elements[:, HEADS]]).astype(np.int64)
     keys = ends.min(axis=0) * n_nodes + ends.max(axis=0)
     unique, numbers = np.unique(keys, return_inverse=True)
     edges = np.stack(np.divmod(unique, n_nodes), axis=1).astype(np.int32)
     return edges, numbers.reshape(elements.shape).astype(np.int32)
+
+
+def _kernels_are_compiled():
+    from .kernels import backend
+    return backend.NAME == "numba"
 
 
 def _edge_table_by_counting(elements, n_nodes):
