@@ -119,7 +119,8 @@ def _parts(place):
 def _worst(costs, target, ties, order):
     """Elements above the group that ties for the last place, and as many of that as the target takes."""
     order = order if order is None else checks.permutation(order, len(costs), "element")
-    low, high = _tied(costs, np.partition(costs, -target)[-target])
+    ascending = np.sort(costs)
+    low, high = _tied(ascending, ascending[-target])
     if ties == "all":
         return np.flatnonzero(costs >= low)
     chosen = costs > high
@@ -135,7 +136,7 @@ def _around(mesh, costs, mark, target, order):
     corners = _corners(mesh, mark)
     worst = costs[corners].T
     worst = np.maximum(np.maximum(worst[0], worst[1]), worst[2])
-    low, high = _tied(costs, np.partition(worst, -target)[-target])
+    low, high = _tied(np.sort(costs), np.sort(worst)[-target])
     chosen = worst > high
     last = np.flatnonzero((worst >= low) & ~chosen)
     place = np.where(costs < low, len(costs), _places(order))[corners[last]].min(axis=1)
@@ -151,9 +152,8 @@ def _places(order):
     return place
 
 
-def _tied(costs, value):
-    """Least and largest cost of the group that a cost belongs to: no gap in it is more than a rounding error."""
-    ascending = np.sort(costs)
+def _tied(ascending, value):
+    """Least and largest cost of the group that a cost belongs to, in which all gaps are rounding errors."""
     gaps = np.flatnonzero(np.diff(ascending) > TIED * np.abs(ascending[[0, -1]]).max())
     place = np.searchsorted(gaps, np.searchsorted(ascending, value))
     low = ascending[gaps[place - 1] + 1] if place else ascending[0]

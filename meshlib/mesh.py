@@ -63,7 +63,7 @@ class Mesh:
         self._store("green", checks.green_array(self.green))
 
     def _store(self, name, array):
-        array = np.array(array, order="C")
+        array = np.asarray(array, order="C")  # the checks have made a copy
         array.flags.writeable = False
         object.__setattr__(self, name, array)
 

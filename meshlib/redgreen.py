@@ -60,30 +60,33 @@ class Forest:
         and ``beside``, the two leaves of which the edge is a side or half a side.
     bisected : list of (n, 2) ndarray of int
         Ends of the edges that got a new node, in the order of these.
+    final : list of pairs of ndarray of int
+        Parts that are no leaves, since without green pairs nothing cuts them again:
+        their nodes and parents.
     """
 
     def __init__(self, mesh):
-        count, none = mesh.n_elements, np.full((mesh.n_edges, 2), -1, dtype=np.int32)
-        self.n_nodes, self.bisected = mesh.n_nodes, [none[:0]]
+        numbers = np.arange(mesh.n_elements, dtype=np.int32)
+        self.n_nodes, self.bisected, self.final = mesh.n_nodes, [mesh.edges[:0]], []
         self.leaves = Table(nodes=mesh.elements, sides=mesh.element_edges,
-                            parent=np.arange(count), gone=np.zeros(count, dtype=bool))
-        self.edges = Table(ends=mesh.edges, middle=none[:, 0].copy(), halves=none, beside=mesh.edge_elements)
-        # a part of an element can only get two hanging nodes if there are green pairs
-        self._linked = len(mesh.green) > 0
-        self._owner = np.arange(count, dtype=np.int32)
+                            parent=numbers, gone=np.zeros(len(numbers), dtype=bool))
+        self.edges = Table(ends=mesh.edges, middle=np.full(mesh.n_edges, -1, dtype=np.int32),
+                           beside=mesh.edge_elements)
+        self._owner, self._linked = numbers, len(mesh.green) > 0
         if self._linked:
             self._put_together(mesh, *mesh.green.T)
-        self._nowhere = self._new_edges(np.full((1, 2), -1), -1)  # stands for all edges never to be bisected
 
     def _put_together(self, mesh, first, second):
         """Let the first of each pair (m, c, a), (m, b, c) be (c, a, b), with a middle m of a-b."""
         leaves, edges = self.leaves, self.edges
+        edges.halves, edges.beside = np.full((mesh.n_edges, 2), -1, dtype=np.int32), edges.beside.copy()
+        leaves.nodes, leaves.sides = leaves.nodes.copy(), leaves.sides.copy()
+        self._owner = self._owner.copy()
         (m, c, a), b = mesh.elements[first].T, mesh.elements[second, 1]
         (ca, am, _), (bc, _, mb) = mesh.element_edges[first].T, mesh.element_edges[second].T
         ab = self._new_edges(np.column_stack([a, b]), -1)
         edges.middle[ab], edges.halves[ab] = m, np.column_stack([am, mb])
         _replace(edges.beside, mesh.element_edges[second], second, first)
-        leaves.nodes, leaves.sides = leaves.nodes.copy(), leaves.sides.copy()
         leaves.nodes[first], leaves.sides[first] = np.column_stack([c, a, b]), np.column_stack([ab, bc, ca])
         leaves.gone[second], self._owner[second] = True, first
 
@@ -94,13 +97,13 @@ class Forest:
     def cut(self, red):
         """Cut leaves into four; returns the leaves that need it because of that."""
         leaves = self.leaves
-        new = self._bisect(unique(leaves.sides[red]))
+        new = self._bisect(unique(leaves.sides.take(red, axis=0)))
         leaves.gone[red] = True
         parts = self._add_parts(red)
-        touched = np.concatenate([self.edges.beside[new].ravel(), parts])
+        touched = np.concatenate([self.edges.beside.take(new, axis=0).ravel(), parts])
         touched = unique(touched[touched >= 0])
         touched = touched[~leaves.gone[touched]]
-        return touched[self._needs_red(leaves.sides[touched])]
+        return touched[self._needs_red(leaves.sides.take(touched, axis=0))]
 
     def _bisect(self, numbers):
         """Give edges a middle; returns those that had none, in the order of their ends."""
@@ -122,9 +125,9 @@ class Forest:
         return self.edges.append(len(ends), ends=ends, middle=-1, halves=-1, beside=beside)
 
     def _add_parts(self, red):
-        r"""Four new leaves for each; returns those that may have to be cut too.
+        r"""Four parts for each leaf; returns those that may have to be cut too.
 
-        Part k lies at node k, behind the edge "inner" number k::
+        Part k lies at node k, with the middles m_k on the sides opposite::
 
                    2
                   /2\
@@ -132,18 +135,20 @@ class Forest:
                 /0\3/1\
                0---m2--1
         """
-        count, nodes, middle = RED_PARTS * len(red), self.leaves.nodes[red], self._middles(red)
-        parts = self.leaves.append(
-            count, nodes=_in_four(nodes, middle[:, HEADS], middle[:, TAILS], middle[:, HEADS]),
-            parent=np.repeat(self.leaves.parent[red], RED_PARTS), gone=False, sides=self._nowhere)
+        nodes, middle = self.leaves.nodes.take(red, axis=0), self._middles(red)
+        rows = _in_four(nodes, middle[:, HEADS], middle[:, TAILS], middle[:, HEADS])
+        parent = np.repeat(self.leaves.parent[red], RED_PARTS)
         if not self._linked:
-            return parts[:0]
+            self.final.append((rows, parent))
+            return red[:0]
+        sides = np.full(rows.shape, -1)
+        parts = self.leaves.append(len(rows), nodes=rows, sides=sides, parent=parent, gone=False)
         self._link(red, nodes, middle, parts.reshape(-1, RED_PARTS))
         return parts
 
     def _middles(self, leaves):
         """The middle of each side, or -1."""
-        return self.edges.middle[self.leaves.sides[leaves]]
+        return self.edges.middle[self.leaves.sides.take(leaves, axis=0)]
 
     def _link(self, red, nodes, middle, parts):
         """Sides of the parts, and the parts beside these."""
@@ -169,18 +174,16 @@ class Forest:
 
     def closed(self):
         """Leaves with one hanging node bisected; elements, parents and green pairs."""
-        numbers = np.flatnonzero(~self.leaves.gone[:self.leaves.size])
+        leaves, numbers = self.leaves, np.flatnonzero(~self.leaves.gone[:self.leaves.size])
         middle = self._middles(numbers)
         hanging = middle >= 0
         open_ = hanging[:, 0] | hanging[:, 1] | hanging[:, 2]
-        nodes, parents = self.leaves.nodes[numbers], self.leaves.parent[numbers]
-        pairs = _bisected(nodes[open_], middle[open_])
-        rows = np.concatenate([nodes[~open_], pairs])
-        origin = np.concatenate([parents[~open_], np.repeat(parents[open_], 2)])
-        order = np.argsort(origin, kind="stable")
-        place = np.empty_like(order)
-        place[order] = np.arange(len(order))
-        return rows[order], origin[order], place[len(order) - len(pairs):].reshape(-1, 2)
+        whole, cut = numbers[~open_], numbers[open_]
+        pairs = _bisected(leaves.nodes.take(cut, axis=0), middle.compress(open_, axis=0))
+        rows = [leaves.nodes.take(whole, axis=0), *(rows for rows, _ in self.final), pairs]
+        parents = [leaves.parent[whole], *(parent for _, parent in self.final), np.repeat(leaves.parent[cut], 2)]
+        elements = np.concatenate(rows)
+        return elements, np.concatenate(parents), np.arange(len(elements))[len(elements) - len(pairs):].reshape(-1, 2)
 
 
 def _bisected(nodes, middle):

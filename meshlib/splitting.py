@@ -18,8 +18,8 @@ def centroid(mesh, marked):
          / / \ \
         a-------b
 
-    Returns the elements, their parents, the corners whose mean each new node is,
-    and no green pairs; so do the other splits.
+    Returns, like the other splits, the elements in any order, their parents, the corners
+    whose mean each new node is, and the green pairs if it makes some, else None.
     """
     corners = mesh.elements[marked]
     a, b, c = corners.T
@@ -27,9 +27,8 @@ def centroid(mesh, marked):
     children = np.column_stack([a, b, g, b, c, g, c, a, g]).reshape(-1, 3)
     whole = np.ones(mesh.n_elements, dtype=bool)
     whole[marked] = False
-    parents = np.concatenate([np.flatnonzero(whole), np.repeat(marked, 3)])
-    elements = np.concatenate([mesh.elements[whole], children])
-    return (*_by_parent(elements, parents), corners, None)
+    elements = np.concatenate([mesh.elements.compress(whole, axis=0), children])
+    return elements, np.concatenate([np.flatnonzero(whole), np.repeat(marked, 3)]), corners, None
 
 
 def longest_edge(mesh, marked):
@@ -51,17 +50,11 @@ def longest_edge(mesh, marked):
     halves, beyond = _halves(mesh, np.flatnonzero(cut), longest[cut], middle)
     parents = np.tile(np.flatnonzero(cut), 2)
     pieces, origin = _cut_again(halves, parents, beyond)
-    elements = np.concatenate([mesh.elements[~cut], pieces])
-    origin = np.concatenate([np.flatnonzero(~cut), origin])
-    return (*_by_parent(elements, origin), mesh.edges[split], None)
+    elements = np.concatenate([mesh.elements.compress(~cut, axis=0), pieces])
+    return elements, np.concatenate([np.flatnonzero(~cut), origin]), mesh.edges.compress(split, axis=0), None
 
 
 SPLITS = {"red-green": red_green, "centroid": centroid, "longest-edge": longest_edge}
-
-
-def _by_parent(elements, parents):
-    order = np.argsort(parents, kind="stable")
-    return elements[order], parents[order]
 
 
 def _longest(mesh):
@@ -88,14 +81,14 @@ def _closed_under_longest(mesh, longest, marked):
         edges = _edge_opposite(mesh, longest, elements)
         edges = unique(edges[~split[edges]])
         split[edges] = True
-        elements = mesh.edge_elements[edges].ravel()
+        elements = mesh.edge_elements.take(edges, axis=0).ravel()
         elements = elements[elements >= 0]
     return split
 
 
 def _halves(mesh, elements, k, middle):
     """Elements (c, a, m), then (b, c, m), and the middles of c-a, then b-c, or -1."""
-    nodes, middles = mesh.elements[elements], middle[mesh.element_edges[elements]]
+    nodes, middles = mesh.elements.take(elements, axis=0), middle[mesh.element_edges.take(elements, axis=0)]
     row, after, before = np.arange(len(elements)), np.take(TAILS, k), np.take(HEADS, k)
     a, b, c, m = nodes[row, after], nodes[row, before], nodes[row, k], middles[row, k]
     halves = np.concatenate([np.column_stack([c, a, m]), np.column_stack([b, c, m])])
