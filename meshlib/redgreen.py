@@ -181,9 +181,9 @@ class Forest:
         whole, cut = numbers[~open_], numbers[open_]
         pairs = _bisected(leaves.nodes.take(cut, axis=0), middle.compress(open_, axis=0))
         rows = [leaves.nodes.take(whole, axis=0), *(rows for rows, _ in self.final), pairs]
-        parents = [leaves.parent[whole], *(parent for _, parent in self.final), np.repeat(leaves.parent[cut], 2)]
-        elements = np.concatenate(rows)
-        return elements, np.concatenate(parents), np.arange(len(elements))[len(elements) - len(pairs):].reshape(-1, 2)
+        parents = [leaves.parent[whole], *(parent for _, parent in self.final), leaves.parent[cut].repeat(2)]
+        elements, parents = np.concatenate(rows), np.concatenate(parents)
+        return elements, parents, np.arange(len(elements) - len(pairs), len(elements)).reshape(-1, 2)
 
 
 def _bisected(nodes, middle):

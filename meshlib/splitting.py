@@ -59,8 +59,9 @@ SPLITS = {"red-green": red_green, "centroid": centroid, "longest-edge": longest_
 
 def _longest(mesh):
     """Which node is opposite the longest edge; among equal ones the smallest edge number."""
-    along = mesh.nodes[mesh.edges[:, 1]] - mesh.nodes[mesh.edges[:, 0]]
-    squared = (along ** 2).sum(axis=1)
+    p, q = mesh.edges.T
+    dx, dy = (v.take(q) - v.take(p) for v in np.ascontiguousarray(mesh.nodes.T))
+    squared = dx ** 2 + dy ** 2
     first, second, third = (squared[column] for column in mesh.element_edges.T)
     least = np.maximum(np.maximum(first, second), third) * (1 - LONGEST)
     ranks = [np.where(long >= least, column, mesh.n_edges)
