@@ -186,11 +186,15 @@ def choice(value, options, what):
 
 def permutation(order, size, what="edge"):
     """``order`` as an array that names every edge (element, node) once, or a MeshError."""
-    order = np.arange(size) if order is None else _regular(order, "order")
+    if order is None:
+        return np.arange(size)
+    order = _regular(order, "order")
     if order.shape != (size,) or order.dtype.kind not in "iu":
         raise MeshError("shape", f"order has shape {order.shape} and dtype {order.dtype}; "
                         f"give the {size} {what} numbers, each once")
-    missing = np.setdiff1d(np.arange(size), order)
+    named = np.zeros(size, dtype=bool)
+    named[order[(order >= 0) & (order < size)]] = True
+    missing = np.flatnonzero(~named)
     if missing.size:
         raise MeshError("order", f"{what} {missing[0]} is not in order; name each {what} once", missing)
     return order.astype(np.int64)

@@ -92,7 +92,7 @@ class Criterion:
 def _on_edges(cost, u_h):
     mesh = u_h.mesh
     inner = np.flatnonzero(~mesh.boundary)
-    left, p, q, right = _points(u_h)[quadrilaterals(mesh, inner)[0].T]
+    left, p, q, right = _points(u_h, quadrilaterals(mesh, inner)[0])
     found = cost(p, q, left, right)
     vector = np.zeros(mesh.n_edges)
     vector[inner] = checks.cost_vector(found, len(inner), "inner edge")
@@ -100,7 +100,7 @@ def _on_edges(cost, u_h):
 
 
 def _on_elements(cost, u_h):
-    found = cost(*np.moveaxis(_points(u_h)[u_h.mesh.elements], 1, 0))
+    found = cost(*_points(u_h, u_h.mesh.elements))
     return checks.cost_vector(found, u_h.mesh.n_elements, "element")
 
 
@@ -108,8 +108,10 @@ def _on_nodes(cost, u_h):
     return checks.cost_vector(cost(u_h), u_h.mesh.n_nodes, "node")
 
 
-def _points(u_h):
-    return np.column_stack([u_h.mesh.nodes, u_h.values])
+def _points(u_h, corners):
+    """Points (x, y, u) at the corners, one array for each column of these."""
+    points = np.column_stack([u_h.mesh.nodes, u_h.values])
+    return [points.take(column, axis=0) for column in corners.T]
 
 
 _EVALUATE = {"edge": _on_edges, "element": _on_elements, "node": _on_nodes}

@@ -90,19 +90,25 @@ def averaged(mesh, costs, source, target):
     """
     if source == target:
         return costs
+    if target == "element":
+        first, second, third = costs[_corners(mesh, source)].T
+        return (first + second + third) / 3
     here, there = _incidence(mesh, source, target)
-    size = {"edge": mesh.n_edges, "element": mesh.n_elements, "node": mesh.n_nodes}[target]
+    size = {"edge": mesh.n_edges, "node": mesh.n_nodes}[target]
     return np.bincount(there, costs[here], size) / np.bincount(there, minlength=size)
+
+
+def _corners(mesh, place):
+    """The three edges or nodes of each element."""
+    return mesh.element_edges if place == "edge" else mesh.elements
 
 
 def _incidence(mesh, source, target):
     """Numbers of adjoining parts, pair by pair."""
-    elements = np.repeat(np.arange(mesh.n_elements), 3)
-    edges = np.repeat(np.arange(mesh.n_edges), 2)
-    pairs = {("edge", "element"): (mesh.element_edges.ravel(), elements),
-             ("node", "element"): (mesh.elements.ravel(), elements),
-             ("node", "edge"): (mesh.edges.ravel(), edges)}
-    return pairs[source, target] if (source, target) in pairs else pairs[target, source][::-1]
+    if source == "element":
+        return np.repeat(np.arange(mesh.n_elements), 3), _corners(mesh, target).ravel()
+    edges, nodes = np.repeat(np.arange(mesh.n_edges), 2), mesh.edges.ravel()
+    return (edges, nodes) if source == "edge" else (nodes, edges)
 
 
 def _parts(place):
@@ -111,28 +117,44 @@ def _parts(place):
 
 
 def _worst(costs, target, ties, order):
-    ranked, group = _ranking(costs, order, "element")
+    """Elements above the group that ties for the last place, and as many of that as the target takes."""
+    order = order if order is None else checks.permutation(order, len(costs), "element")
+    ascending = np.sort(costs)
+    low, high = _tied(ascending, ascending[-target])
     if ties == "all":
-        target = np.searchsorted(group, group[target - 1], side="right")
-    return np.sort(ranked[:target])
+        return np.flatnonzero(costs >= low)
+    chosen = costs > high
+    last = (costs >= low) & ~chosen
+    ranked = np.flatnonzero(last) if order is None else order[last[order]]
+    chosen[ranked[:target - np.count_nonzero(chosen)]] = True
+    return np.flatnonzero(chosen)
 
 
 def _around(mesh, costs, mark, target, order):
     """Elements at the worst edges or nodes, as many of these as the target takes."""
-    ranked, _ = _ranking(costs, order, mark)
-    rank = np.empty(len(ranked), dtype=np.int64)
-    rank[ranked] = np.arange(len(ranked))
-    first = rank[mesh.element_edges if mark == "edge" else mesh.elements].min(axis=1)
-    return np.flatnonzero(first <= np.sort(first)[target - 1])
+    order = checks.permutation(order, len(costs), mark)
+    corners = _corners(mesh, mark)
+    worst = costs[corners].T
+    worst = np.maximum(np.maximum(worst[0], worst[1]), worst[2])
+    low, high = _tied(np.sort(costs), np.sort(worst)[-target])
+    chosen = worst > high
+    last = np.flatnonzero((worst >= low) & ~chosen)
+    place = np.where(costs < low, len(costs), _places(order))[corners[last]].min(axis=1)
+    missing = target - np.count_nonzero(chosen)
+    chosen[last[place <= np.partition(place, missing - 1)[missing - 1]]] = True
+    return np.flatnonzero(chosen)
 
 
-def _ranking(costs, order, what):
-    """Numbers by descending cost, equal costs in the given order, and their groups."""
-    order = checks.permutation(order, len(costs), what)
-    descending = order[np.argsort(-costs[order], kind="stable")]
-    drops = -np.diff(costs[descending]) > TIED * np.abs(costs).max()
-    group = np.concatenate([[0], np.cumsum(drops)])
-    place = np.empty(len(costs), dtype=np.int64)
+def _places(order):
+    """Where each number stands in the order."""
+    place = np.empty_like(order)
     place[order] = np.arange(len(order))
-    ranked = descending[np.lexsort((place[descending], group))]
-    return ranked, group
+    return place
+
+
+def _tied(ascending, value):
+    """Least and largest cost of the group that a cost belongs to, in which all gaps are rounding errors."""
+    gaps = np.flatnonzero(np.diff(ascending) > TIED * np.abs(ascending[[0, -1]]).max())
+    place = np.searchsorted(gaps, np.searchsorted(ascending, value))
+    low = ascending[gaps[place - 1] + 1] if place else ascending[0]
+    return low, ascending[gaps[place]] if place < len(gaps) else ascending[-1]

@@ -6,6 +6,7 @@ import numpy as np
 from . import checks
 from .errors import MeshError
 from .mesh import Mesh
+from .topology import HEADS, TAILS, grouped
 from .validation import halved
 
 MOST_SWEEPS = 1000
@@ -83,13 +84,13 @@ def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=ST
     sweeps = checks.whole(sweeps, 1, "sweeps")
     from .kernels import springs as kernel
     from .kernels.backend import flat
-    x, y = (flat(v) for v in mesh.nodes.T)
+    place = flat(mesh.nodes)
     arrays = [flat(v) for v in _patches(mesh, springs)]
     for count in range(1, sweeps + 1):  # noqa: B007 (the result tells how many it took)
-        movement, refused = kernel.sweep(*arrays, 2 * area, x, y)
+        movement, refused = kernel.sweep(*arrays, 2 * area, place)
         if movement <= still:
             break
-    nodes = np.column_stack([x, y])
+    nodes = np.reshape(place, (-1, 2))
     green = mesh.green[halved(nodes, mesh.elements, mesh.green)]  # the others can no longer be undone
     moved = Mesh._trusted(nodes, mesh.elements, green)
     return Smoothing(moved, count, float(movement), int(refused))
@@ -120,16 +121,8 @@ def _patches(mesh, springs):
     two other nodes of each element, counter-clockwise after the centre.
     """
     n, centres = mesh.n_nodes, np.flatnonzero(~mesh.boundary_nodes)
-    tail = np.concatenate([mesh.edges[:, 0], mesh.edges[:, 1]])
-    head = np.concatenate([mesh.edges[:, 1], mesh.edges[:, 0]])
-    by_tail = np.argsort(tail, kind="stable")
-    corner = mesh.elements.ravel()
-    by_corner = np.argsort(corner, kind="stable")
-    second = np.roll(mesh.elements, -1, axis=1).ravel()[by_corner]
-    third = np.roll(mesh.elements, -2, axis=1).ravel()[by_corner]
-    return (centres, _starts(tail, n), head[by_tail], np.tile(springs, 2)[by_tail],
-            _starts(corner, n), second, third)
-
-
-def _starts(numbers, n):
-    return np.concatenate([[0], np.cumsum(np.bincount(numbers, minlength=n))])
+    by_tail, edge_starts = grouped(mesh.edges.T.ravel(), n)
+    by_corner, element_starts = grouped(mesh.elements.ravel(), n)
+    head, springs = mesh.edges.T[::-1].ravel().take(by_tail), np.tile(springs, 2).take(by_tail)
+    second, third = (mesh.elements[:, turn].ravel().take(by_corner) for turn in (TAILS, HEADS))
+    return centres, edge_starts, head, springs, element_starts, second, third

@@ -1,5 +1,6 @@
 """Mesh refinement: marking the worst elements and splitting them (section 3.2)."""
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
@@ -89,22 +90,40 @@ def refined(mesh, values, criterion="abn", fraction=0.2, mark="element", split="
     checks.choice(split, tuple(SPLITS), "split")
     mesh = checks.a_mesh(mesh)
     chosen = marked_elements(mesh, values, criterion, fraction, mark, ties, order)
-    elements, parents, corners, green = SPLITS[split](mesh, chosen)
-    nodes = np.vstack([mesh.nodes, mesh.nodes[corners].mean(axis=1)])
-    _refuse_too_thin(mesh, nodes[elements], parents)
-    result = Mesh._trusted(nodes, elements, _kept_green(mesh, parents) if green is None else green)
+    *parts, corners, green = SPLITS[split](mesh, chosen)
+    elements, parents, green = _by_parent(*parts, green)
+    nodes, whole = _with_means(mesh.nodes, corners), np.bincount(parents, minlength=mesh.n_elements) == 1
+    _refuse_too_thin(nodes, elements, parents, ~whole)
+    result = Mesh._trusted(nodes, elements, _kept_green(mesh, parents, whole) if green is None else green)
     return Refinement(result, chosen, parents, _values(result, mesh, values, corners))
 
 
-def _kept_green(mesh, parents):
+def _by_parent(elements, parents, green):
+    """The same in the order of the parents."""
+    order = np.argsort(parents, kind="stable")
+    if green is not None:
+        place = np.empty_like(order)
+        place[order] = np.arange(len(order))
+        green = place[green]
+    return elements.take(order, axis=0), parents.take(order).astype(np.int64), green
+
+
+def _with_means(values, corners):
+    """Values at the nodes, and at new nodes the means over their corners."""
+    means = reduce(np.add, (values.take(column, axis=0) for column in corners.T)) / corners.shape[1]
+    return np.concatenate([values, means])
+
+
+def _kept_green(mesh, parents, whole):
     """The green pairs of which neither half was split, by their new numbers."""
-    whole = np.bincount(parents, minlength=mesh.n_elements) == 1
     return np.searchsorted(parents, mesh.green[whole[mesh.green].all(axis=1)])
 
 
-def _refuse_too_thin(mesh, corners, parents):
+def _refuse_too_thin(nodes, elements, parents, split):
     """Midpoints are rounded: an element about as thin as that has no parts."""
-    bad = np.unique(parents[orientation(*np.moveaxis(corners, 1, 0)) <= 0])
+    parts = np.flatnonzero(split[parents])
+    turns = orientation(*(nodes.take(column, axis=0) for column in elements.take(parts, axis=0).T))
+    bad = np.unique(parents[parts[turns <= 0]])
     if bad.size:
         raise MeshError("degenerate", f"element {bad[0]} is too thin to be split; move one of its nodes", bad)
 
@@ -112,5 +131,4 @@ def _refuse_too_thin(mesh, corners, parents):
 def _values(result, mesh, values, corners):
     if callable(values):
         return checks.nodal_values(result, values)
-    old = checks.nodal_values(mesh, values)
-    return np.concatenate([old, old[corners].mean(axis=1)])
+    return _with_means(checks.nodal_values(mesh, values), corners)

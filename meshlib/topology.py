@@ -88,6 +88,25 @@ def from_smallest(elements):
     return np.take_along_axis(elements, (first + np.arange(3)) % 3, axis=1)
 
 
+def grouped(numbers, n):
+    """Rows of the numbers 0 to n - 1, one number after the other, and where the rows of each start."""
+    if len(numbers) < MANY:
+        starts = np.concatenate([[0], np.cumsum(np.bincount(numbers, minlength=n))])
+        return np.argsort(numbers, kind="stable").astype(np.int32), starts.astype(np.int32)
+    from scipy.sparse import csr_array  # transposes by counting
+    row = np.arange(len(numbers), dtype=np.int32), numbers, [0, len(numbers)]
+    column = csr_array(row, shape=(1, n)).tocsc()
+    return column.data, column.indptr
+
+
+def unique(numbers):
+    """The different numbers in ascending order; NumPy's own way is through a slower hash table."""
+    ascending = np.sort(numbers, axis=None)
+    new = np.ones(len(ascending), dtype=bool)
+    np.not_equal(ascending[1:], ascending[:-1], out=new[1:])
+    return ascending[new]
+
+
 def edge_numbers(edges, n_nodes, pairs):
     """Row in ``edges`` of each pair of nodes (smaller first), or a MeshError."""
     own, keys = (rows.astype(np.int64) @ [n_nodes, 1] for rows in (edges, pairs))
