@@ -32,8 +32,9 @@ test: $(READY) ## Unit tests (both backends), doctests, notebooks against their 
 notebooks: $(READY) ## Run the notebooks in place and strip what changes from run to run
 	$(BIN)/python book/execute.py notebooks/*.ipynb
 
-bench: $(READY) ## Times against peers, about ten minutes for a million nodes: make bench NODES=1000000
-	$(BIN)/python benchmarks/run.py --nodes $(NODES)
+bench: $(READY) ## Time and memory against peers, an hour for a million nodes: make bench NODES=1000000
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
+	$(BIN)/python benchmarks/run.py --nodes $(NODES) $(if $(JSON),--json $(JSON))
 
 lock: ## Pin the newest versions that pyproject.toml allows in requirements.txt
 	$(PYTHON) -m venv $(VENV)-lock

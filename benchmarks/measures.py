@@ -62,19 +62,22 @@ def refinement(case):
 
 
 def quality(case):
-    """A shape measure of every element; of the peers' the one most like it."""
-    ours = {"radius ratio": lambda: ml.quality(case.fresh())}
-    return ours, _vtk(case) if find_spec("pyvista") else {}
+    """Maximum angle, skewness and aspect ratio of every element; of the peers what is most like them."""
+    from matplotlib.tri import TriAnalyzer, Triangulation
+
+    def circles():
+        return TriAnalyzer(Triangulation(*case.nodes.T, case.mesh.elements)).circle_ratios()
+    vtk = {"VTK": _vtk(case)} if find_spec("pyvista") else {}  # large, and asked for by nothing else
+    return {"three measures": lambda: ml.quality(case.fresh())}, {"matplotlib": circles, **vtk}
 
 
 def _vtk(case):
+    """Its largest and smallest angle say the skewness, its "shape" is our aspect ratio."""
     import pyvista
     points = np.column_stack([case.nodes, np.zeros(len(case.nodes))])
     elements = np.asarray(case.mesh.elements, dtype=np.int64)
-
-    def vtk():
-        pyvista.PolyData.from_regular_faces(points, elements).cell_quality("radius_ratio")
-    return {"VTK": vtk}
+    return lambda: pyvista.PolyData.from_regular_faces(points, elements).cell_quality(
+        ["max_angle", "min_angle", "shape"])
 
 
 def smoothing(case):
