@@ -6,7 +6,6 @@ import numpy as np
 from . import checks, quadrature
 from .errors import MeshError
 from .location import located
-from .predicates import nearly_flat
 
 DEFAULT_DEGREE = 8
 ROUNDING = 8 * np.finfo(float).eps  # of a coordinate, in the places where a row cuts a side
@@ -89,17 +88,15 @@ class Interpolant:
         return x, y, self._raster(low, high, nx, ny)
 
     def _raster(self, low, high, nx, ny):
-        """Values on the grid from low to high; flat elements come first, so that others decide."""
+        """Values on the grid from low to high."""
         from .kernels import raster
-        from .kernels.backend import flat
+        from .kernels.backend import read, written
         step = (high - low) / (nx - 1, ny - 1)
+        unit = np.abs([low, high]).max()
         slack = raster.SLACK + ROUNDING * (np.abs([low, high]).max(axis=0) / step).max()
-        sliver = nearly_flat(self.mesh.corners)
-        order = np.concatenate([np.flatnonzero(sliver), np.flatnonzero(~sliver)])
-        grid = flat(np.full(nx * ny, np.nan))
-        raster.filled(grid, nx, ny, *map(float, step), float(slack), flat(order),
-                      flat(self.mesh.elements),
-                      *map(flat, (*(self.mesh.nodes - low).T, self.values, *self.gradients.T)))
+        grid = written(np.full(nx * ny, np.nan))
+        raster.filled(grid, nx, ny, *map(float, (*low, *1 / step, slack, unit)),
+                      read(self.mesh.elements), read(self.mesh.nodes), read(self.values))
         return np.reshape(grid, (ny, nx))
 
     def l2_error(self, function, rule="trapezium", points=101, degree=DEFAULT_DEGREE):

@@ -42,3 +42,13 @@ def inlined(function):
 def flat(array):
     """A private, flat working copy: an array for numba, a list for plain Python."""
     return array.ravel().copy() if _numba else array.ravel().tolist()
+
+
+def read(array):
+    """A flat array that is only read, or a list for plain Python."""
+    return array.ravel() if _numba else array.ravel().tolist()
+
+
+def written(array):
+    """A flat array that the kernel may write into, or a list for plain Python."""
+    return array if _numba else array.tolist()
