@@ -3,12 +3,14 @@ from functools import cached_property
 
 import numpy as np
 
-from . import checks, quadrature
+from . import checks, quadrature, strips
 from .errors import MeshError
 from .location import located
+from .topology import bounding_box
 
 DEFAULT_DEGREE = 8
 ROUNDING = 8 * np.finfo(float).eps  # of a coordinate, in the places where a row cuts a side
+POINTS_AT_ONCE = 100_000  # of quadrature, which keeps them in nearby memory
 FILLED = 1e-9  # how far, relatively, the domain may fall short of its bounding box
 
 
@@ -62,11 +64,17 @@ class Interpolant:
         """
         x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
         points = np.column_stack([x.ravel(), y.ravel()])
+        return self._at(points).reshape(x.shape)
+
+    def _at(self, points):
+        """Values at the rows of an array of points."""
+        if strips.pay(self.mesh, points):
+            return strips.Strips(self.mesh, points).values(self.values)
         element = located(self.mesh, points)
         first = self.mesh.elements[element, 0]
         away = points - self.mesh.nodes[first]
         values = self.values[first] + (self.gradients[element] * away).sum(axis=1)
-        return np.where(element < 0, np.nan, values).reshape(x.shape)
+        return np.where(element < 0, np.nan, values)
 
     def on_grid(self, nx=101, ny=None):
         """Values on a regular grid over the bounding box of the mesh.
@@ -83,7 +91,7 @@ class Interpolant:
         """
         nx = checks.whole(nx, 2, "nx")
         ny = nx if ny is None else checks.whole(ny, 2, "ny")
-        low, high = self.mesh.nodes.min(axis=0), self.mesh.nodes.max(axis=0)
+        low, high = bounding_box(self.mesh.nodes)
         x, y = np.linspace(low[0], high[0], nx), np.linspace(low[1], high[1], ny)
         return x, y, self._raster(low, high, nx, ny)
 
@@ -183,8 +191,16 @@ def gradients(corners, values):
 
 def squared_errors(corners, values, function, degree):
     """Integral of (u - u_h)^2 over each element with the given corners and values."""
-    points, barycentric, weights = quadrature.points_in(corners, degree)
-    error = function(points[..., 0], points[..., 1]) - values @ barycentric.T
+    found, step = np.empty(len(corners)), max(1, POINTS_AT_ONCE // len(quadrature.rule(degree)[1]))
+    for start in range(0, len(corners), step):
+        batch = slice(start, start + step)
+        found[batch] = _squared_errors(corners[batch], values[batch], function, degree)
+    return found
+
+
+def _squared_errors(corners, values, function, degree):
+    x, y, barycentric, weights = quadrature.points_in(corners, degree)
+    error = function(x, y) - values @ barycentric.T
     e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     areas = np.abs(e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]) / 2
     return areas * (error ** 2 @ weights)

@@ -14,7 +14,7 @@ A point on a side is set by both neighbours, to the same value but for rounding.
 from math import ceil, floor, inf
 
 from .backend import compiled
-from .shapes import INSIDE, is_flat
+from .shapes import INSIDE, is_flat, plane
 
 SLACK = 1e-12  # of a cell, by which the rounding of a crossing may miss a point
 
@@ -44,13 +44,6 @@ def painted(grid, first, last, value, slope, empty):
     for k in range(first, last + 1):
         if not (empty and grid[k] == grid[k]):
             grid[k] = value + slope * (k - first)
-
-
-@compiled
-def plane(ux, uy, vx, vy, du, dv):
-    """Gradient of the plane that grows by du along u and by dv along v."""
-    twice_area = ux * vy - uy * vx
-    return (du * vy - dv * uy) / twice_area, (dv * ux - du * vx) / twice_area
 
 
 @compiled

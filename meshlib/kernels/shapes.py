@@ -1,4 +1,4 @@
-"""What several kernels ask of an element: whether it is flat, and how deep a point lies in it."""
+"""What several kernels ask of an element: whether it is flat, and its gradient."""
 from ..predicates import FLAT, ROUNDOFF, ULPS
 from .backend import compiled
 
@@ -28,3 +28,10 @@ def is_flat_in_units(ax, ay, bx, by, cx, cy):
     longest = max(abs(ux), abs(uy), abs(vx), abs(vy))
     moved = MOVED * max(abs(ax), abs(ay), abs(bx), abs(by), abs(cx), abs(cy)) * longest
     return left - right <= FLAT * (abs(left) + abs(right)) + moved
+
+
+@compiled
+def plane(ux, uy, vx, vy, du, dv):
+    """Gradient of the plane that grows by du along u and by dv along v."""
+    twice_area = ux * vy - uy * vx
+    return (du * vy - dv * uy) / twice_area, (dv * ux - du * vx) / twice_area
