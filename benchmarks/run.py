@@ -10,6 +10,7 @@ import platform
 import statistics
 import time
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -67,6 +68,21 @@ def scattered(case):
             lambda: LinearNDInterpolator(triangulation, case.values)(*case.points))
 
 
+def quality(case):
+    """Maximum angle, skewness and aspect ratio, against the ratio of circles by matplotlib."""
+    from matplotlib.tri import TriAnalyzer, Triangulation
+    return (lambda: ml.quality(case.fresh()),
+            lambda: TriAnalyzer(Triangulation(*case.nodes.T, case.mesh.elements)).circle_ratios())
+
+
+def quality_in_vtk(case):
+    """The same, against VTK: its largest and smallest angle say the skewness, its "shape" is our aspect ratio."""
+    from pyvista import PolyData
+    nodes = np.column_stack([case.nodes, np.zeros(len(case.nodes))])
+    mesh = PolyData.from_regular_faces(nodes, case.mesh.elements)
+    return lambda: ml.quality(case.fresh()), lambda: mesh.cell_quality(["max_angle", "min_angle", "shape"])
+
+
 def refinement(case):
     """Red-green refinement of a tenth of the elements, against scikit-fem."""
     from skfem import MeshTri
@@ -86,8 +102,11 @@ MEASURES = {
     "swap, ABN-L2 / Delaunay": lambda case: swapping(case, "abn", 2),
     "grid / matplotlib": grid,
     "scattered / SciPy": scattered,
+    "quality / matplotlib": quality,
     "red-green / scikit-fem": refinement,
 }
+if find_spec("pyvista"):  # large, and asked for by nothing else
+    MEASURES["quality / VTK"] = quality_in_vtk
 
 
 def timed(function):

@@ -33,10 +33,10 @@ def located(mesh, points):
     """
     if strips.pay(mesh, points):
         return strips.Strips(mesh, points).elements()
-    return _by_buckets(mesh, points)
+    return by_buckets(mesh, points)
 
 
-def _by_buckets(mesh, points):
+def by_buckets(mesh, points):
     """The same in arrays, which plain Python runs faster than a loop."""
     buckets = _Buckets(mesh)
     found = np.empty(len(points), dtype=np.int32)

@@ -93,7 +93,7 @@ def _measures(x, y):
 
 
 def _angles(x, y):
-    """Angles, the cross products of the sides that meet there, and the squares of the first of them, (3, T) each."""
+    """Angles, cross products of the sides that meet there, and squares of one of them, (3, T) each."""
     ux, uy, vx, vy = x[NEXT] - x, y[NEXT] - y, x[PREVIOUS] - x, y[PREVIOUS] - y
     cross = ux * vy - uy * vx
     return np.arctan2(np.abs(cross), ux * vx + uy * vy), cross, ux ** 2 + uy ** 2
