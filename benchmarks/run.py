@@ -76,7 +76,7 @@ def quality(case):
 
 
 def quality_in_vtk(case):
-    """The same, against VTK: its largest and smallest angle say the skewness, its "shape" is our aspect ratio."""
+    """The same, against VTK, whose extreme angles say the skewness and whose shape is the aspect ratio."""
     from pyvista import PolyData
     nodes = np.column_stack([case.nodes, np.zeros(len(case.nodes))])
     mesh = PolyData.from_regular_faces(nodes, case.mesh.elements)

@@ -31,11 +31,9 @@ def side(run, rise, room):
 
     A level side bounds nothing: no row beyond it is asked.
     """
-    if rise > SLACK:
-        return run / rise, -inf, room / rise
-    if rise < -SLACK:
-        return run / rise, room / rise, inf
-    return 0.0, -inf, inf
+    height = rise if abs(rise) > SLACK else inf
+    shift = room / height
+    return run / height, shift if rise < -SLACK else -inf, shift if rise > SLACK else inf
 
 
 @compiled
