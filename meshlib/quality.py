@@ -79,9 +79,10 @@ def quality(mesh):
     """
     mesh = a_mesh(mesh)
     found = np.empty((len(MEASURES), mesh.n_elements))
+    columns = np.ascontiguousarray(mesh.nodes.T)
     for start in range(0, mesh.n_elements, AT_ONCE):
         batch = slice(start, start + AT_ONCE)
-        found[:, batch] = _measures(*(column[mesh.elements[batch].T] for column in mesh.nodes.T))
+        found[:, batch] = _measures(*(column[mesh.elements[batch].T] for column in columns))
     return Quality(*found)
 
 

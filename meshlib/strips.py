@@ -8,6 +8,7 @@ import numpy as np
 from .topology import bounding_box
 
 FEW = 20_000  # elements and points, which take less time than the import of the compiler
+CELLS = np.uint16(128)  # in a row
 PER_STRIP = 2.0  # how many times as many points in a strip as there are strips
 
 
@@ -53,9 +54,17 @@ class Strips:
         from .kernels.backend import read, written
         best = written(np.full(len(self.order), -np.inf))
         found = written(np.full(len(self.order), -1, dtype=np.int32))
-        location.searched(*map(read, (self.x, self.y)), self.size, read(self.edge), read(self.mesh.elements),
-                          read(self.mesh.nodes), self.unit, best, found)
+        location.searched(*map(read, (self.x, self.y)), self.size, read(self.edge), read(self._neighbouring()),
+                          read(self.mesh.elements), read(self.mesh.nodes), self.unit, best, found)
         return found
+
+    def _neighbouring(self):
+        """Numbers of the elements, those in a cell of a square grid together, as they share nodes and points."""
+        low, high = bounding_box(self.mesh.nodes)
+        place = [((column - a) * (CELLS / (b - a))).astype(np.uint16).clip(0, CELLS - 1)
+                 for column, a, b in zip(self.mesh.nodes.T, low, high, strict=True)]
+        cell = place[0] * CELLS + place[1]  # 16 bits, which are sorted fastest
+        return np.argsort(cell[self.mesh.elements[:, 0]], kind="stable")
 
     def values(self, values):
         """Values at the points of the interpolant of nodal values, NaN outside the domain."""

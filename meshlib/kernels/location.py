@@ -60,13 +60,14 @@ def depth(px, py, ux, uy, vx, vy, area):
 
 
 @compiled
-def searched(x, y, size, edge, element, node, unit, best, found):
+def searched(x, y, size, edge, order, element, node, unit, best, found):
     """Set the deepest element of each point, of several the first; -1 before and where there is none.
 
     Strip s holds the points s size..(s + 1) size - 1, between edge[s] and edge[s + 1].
-    ``best`` is room for the depth of each point, minus infinity before.
+    ``best`` is room for the depth of each point, minus infinity before.  The order in
+    which the elements come does not matter but for the memory.
     """
-    for t in range(len(element) // 3):
+    for t in order:
         a, b, c = element[3 * t], element[3 * t + 1], element[3 * t + 2]
         ax, ay, bx, by, cx, cy = (node[2 * a], node[2 * a + 1], node[2 * b], node[2 * b + 1],
                                   node[2 * c], node[2 * c + 1])
@@ -88,9 +89,9 @@ def searched(x, y, size, edge, element, node, unit, best, found):
             while p < end and y[p] <= highest:
                 if left <= x[p] <= right:
                     deep = depth(x[p] - ax, y[p] - ay, ux, uy, vx, vy, area)
-                    if deep >= -INSIDE and deep > best[p]:
+                    if deep >= -INSIDE and deep >= best[p]:
                         deep = -INSIDE if is_flat(node, a, b, c, unit) else deep
-                        if deep > best[p]:
+                        if deep > best[p] or (deep == best[p] and t < found[p]):
                             best[p], found[p] = deep, t
                 p += 1
             s += 1
