@@ -54,12 +54,12 @@ class Strips:
         from .kernels.backend import read, written
         best = written(np.full(len(self.order), -np.inf))
         found = written(np.full(len(self.order), -1, dtype=np.int32))
-        location.searched(*map(read, (self.x, self.y)), self.size, read(self.edge), read(self._neighbouring()),
-                          read(self.mesh.elements), read(self.mesh.nodes), self.unit, best, found)
+        location.searched(*map(read, (self.x, self.y)), self.size, *map(read, (
+            self.edge, self._neighbouring(), self.mesh.elements, self.mesh.nodes)), self.unit, best, found)
         return found
 
     def _neighbouring(self):
-        """Numbers of the elements, those in a cell of a square grid together, as they share nodes and points."""
+        """Numbers of the elements, those in a cell of a grid together: they share nodes and points."""
         low, high = bounding_box(self.mesh.nodes)
         place = [((column - a) * (CELLS / (b - a))).astype(np.uint16).clip(0, CELLS - 1)
                  for column, a, b in zip(self.mesh.nodes.T, low, high, strict=True)]
