@@ -18,8 +18,8 @@ def node_array(nodes):
         raise MeshError("shape", f"nodes have shape {nodes.shape}; give an (N, 2) array of x and y")
     if len(nodes) < MINIMUM_NODES:
         raise MeshError("shape", f"{len(nodes)} nodes make no element; give at least {MINIMUM_NODES}")
-    bad = np.flatnonzero(~np.isfinite(nodes).all(axis=1))
-    if bad.size:
+    if not np.isfinite(nodes).all():
+        bad = np.flatnonzero(~np.isfinite(nodes).all(axis=1))
         x, y = nodes[bad[0]]
         raise MeshError("finite", f"node {bad[0]} has the coordinates ({x}, {y}); "
                         "remove it or give finite numbers", bad)
@@ -31,9 +31,8 @@ def element_array(elements):
     elements = _numbers(elements, "elements", 3, "a (T, 3) array of node numbers")
     if not len(elements):
         raise MeshError("shape", "there are no elements; give at least one")
-    large = np.argwhere(elements > LARGEST_NUMBER)
-    if large.size:
-        t, k = large[0]
+    if elements.max() > LARGEST_NUMBER:
+        t, k = np.argwhere(elements > LARGEST_NUMBER)[0]
         raise MeshError("index range", f"element {t} names node {elements[t, k]}; "
                         f"the largest number is {LARGEST_NUMBER}", (t,))
     return elements.astype(np.int32)

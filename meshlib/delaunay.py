@@ -145,7 +145,7 @@ def _flipped_to_delaunay(nodes, elements):
 def _swapped(mesh, quads, pairs):
     """The mesh with the diagonals b-c of the quadrilaterals swapped for a-d."""
     elements = mesh.elements.copy()
-    for side, new in zip(pairs.T, NEW):
+    for side, new in zip(pairs.T, NEW, strict=True):
         elements[side] = quads[:, new]
     return Mesh(mesh.nodes, elements)
 

@@ -3,13 +3,13 @@ from functools import cached_property
 
 import numpy as np
 
-from . import checks, quadrature
+from . import checks, quadrature, strips
 from .errors import MeshError
 from .location import located
-from .predicates import nearly_flat
 
 DEFAULT_DEGREE = 8
 ROUNDING = 8 * np.finfo(float).eps  # of a coordinate, in the places where a row cuts a side
+POINTS_AT_ONCE = 100_000  # of quadrature, which keeps them in nearby memory
 FILLED = 1e-9  # how far, relatively, the domain may fall short of its bounding box
 
 
@@ -63,11 +63,17 @@ class Interpolant:
         """
         x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
         points = np.column_stack([x.ravel(), y.ravel()])
+        return self._at(points).reshape(x.shape)
+
+    def _at(self, points):
+        """Values at the rows of an array of points."""
+        if strips.pay(self.mesh, points):
+            return strips.Strips(self.mesh, points).values(self.values)
         element = located(self.mesh, points)
         first = self.mesh.elements[element, 0]
         away = points - self.mesh.nodes[first]
         values = self.values[first] + (self.gradients[element] * away).sum(axis=1)
-        return np.where(element < 0, np.nan, values).reshape(x.shape)
+        return np.where(element < 0, np.nan, values)
 
     def on_grid(self, nx=101, ny=None):
         """Values on a regular grid over the bounding box of the mesh.
@@ -84,22 +90,20 @@ class Interpolant:
         """
         nx = checks.whole(nx, 2, "nx")
         ny = nx if ny is None else checks.whole(ny, 2, "ny")
-        low, high = self.mesh.nodes.min(axis=0), self.mesh.nodes.max(axis=0)
+        low, high = self.mesh.box
         x, y = np.linspace(low[0], high[0], nx), np.linspace(low[1], high[1], ny)
         return x, y, self._raster(low, high, nx, ny)
 
     def _raster(self, low, high, nx, ny):
-        """Values on the grid from low to high; flat elements come first, so that others decide."""
+        """Values on the grid from low to high."""
         from .kernels import raster
-        from .kernels.backend import flat
+        from .kernels.backend import readable, writable
         step = (high - low) / (nx - 1, ny - 1)
+        unit = np.abs([low, high]).max()
         slack = raster.SLACK + ROUNDING * (np.abs([low, high]).max(axis=0) / step).max()
-        sliver = nearly_flat(self.mesh.corners)
-        order = np.concatenate([np.flatnonzero(sliver), np.flatnonzero(~sliver)])
-        grid = flat(np.full(nx * ny, np.nan))
-        raster.filled(grid, nx, ny, *map(float, step), float(slack), flat(order),
-                      flat(self.mesh.elements),
-                      *map(flat, (*(self.mesh.nodes - low).T, self.values, *self.gradients.T)))
+        grid = writable(np.full(nx * ny, np.nan))
+        raster.filled(grid, nx, ny, *map(float, (*low, *1 / step, slack, unit)),
+                      readable(self.mesh.elements), readable(self.mesh.nodes), readable(self.values))
         return np.reshape(grid, (ny, nx))
 
     def l2_error(self, function, rule="trapezium", points=101, degree=DEFAULT_DEGREE):
@@ -186,8 +190,16 @@ def gradients(corners, values):
 
 def squared_errors(corners, values, function, degree):
     """Integral of (u - u_h)^2 over each element with the given corners and values."""
-    points, barycentric, weights = quadrature.points_in(corners, degree)
-    error = function(points[..., 0], points[..., 1]) - values @ barycentric.T
+    found, step = np.empty(len(corners)), max(1, POINTS_AT_ONCE // len(quadrature.rule(degree)[1]))
+    for start in range(0, len(corners), step):
+        batch = slice(start, start + step)
+        found[batch] = _squared_errors(corners[batch], values[batch], function, degree)
+    return found
+
+
+def _squared_errors(corners, values, function, degree):
+    x, y, barycentric, weights = quadrature.points_in(corners, degree)
+    error = function(x, y) - values @ barycentric.T
     e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     areas = np.abs(e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]) / 2
     return areas * (error ** 2 @ weights)

@@ -1,10 +1,12 @@
 """Which element a point lies in, by a grid of buckets over the bounding box."""
 import numpy as np
 
+from . import strips
 from .predicates import nearly_flat
 
 INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
 PAIRS_AT_ONCE = 2_000_000
+CELLS_OF_AN_ELEMENT = 64  # on average, beyond which the cells are made larger
 
 
 def located(mesh, points):
@@ -28,6 +30,13 @@ def located(mesh, points):
     >>> located(mesh, np.array([[0.9, 0.1], [0.1, 0.9], [2.0, 0.0]])).tolist()
     [0, 1, -1]
     """
+    if strips.pay(mesh, points):
+        return strips.Strips(mesh, points).elements()
+    return by_buckets(mesh, points)
+
+
+def by_buckets(mesh, points):
+    """The same in arrays, which plain Python runs faster than a loop."""
     buckets = _Buckets(mesh)
     found = np.empty(len(points), dtype=np.int32)
     step = max(1, int(PAIRS_AT_ONCE / buckets.mean_load))
@@ -41,7 +50,7 @@ class _Buckets:
 
     def __init__(self, mesh):
         self.mesh = mesh
-        self.low, self.high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
+        self.low, self.high = mesh.box
         self.n = int(np.sqrt(mesh.n_elements))
         self.flat = nearly_flat(mesh.corners)  # asked only where there is no other element
         self._fill()
@@ -51,10 +60,17 @@ class _Buckets:
         share = (points - self.low) / (self.high - self.low)
         return np.floor(share * self.n).astype(np.int64).clip(0, self.n - 1)
 
-    def _fill(self):
+    def _boxes(self):
+        """First cell, width and height in cells of each bounding box."""
         first = self._cell(self.mesh.corners.min(axis=1))
         last = self._cell(self.mesh.corners.max(axis=1))
-        width, height = (last - first + 1).T
+        return first, *(last - first + 1).T
+
+    def _fill(self):
+        first, width, height = self._boxes()
+        while (width * height).sum() > CELLS_OF_AN_ELEMENT * len(first) and self.n > 1:  # many long slivers
+            self.n //= 2
+            first, width, height = self._boxes()
         element = np.repeat(np.arange(len(first)), width * height)
         place = _count_up(width * height)
         row, column = np.divmod(place, width[element])

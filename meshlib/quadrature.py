@@ -50,15 +50,15 @@ def points_in(corners, degree):
 
     Returns
     -------
-    points : (T, q, 2) ndarray of float64
+    x, y : (T, q) ndarray of float64
     barycentric : (q, 3) ndarray of float64
     weights : (q,) ndarray of float64
 
     Examples
     --------
-    >>> import numpy as np
-    >>> points_in(np.array([[[0., 0.], [1., 0.], [0., 1.]]]), degree=1)[0].round(6).tolist()
-    [[[0.333333, 0.333333]]]
+    >>> x, y, _, _ = points_in(np.array([[[0., 0.], [1., 0.], [0., 1.]]]), degree=1)
+    >>> x.round(6).tolist(), y.round(6).tolist()
+    ([[0.333333]], [[0.333333]])
     """
     barycentric, weights = rule(degree)
-    return np.einsum("qk,tkd->tqd", barycentric, corners), barycentric, weights
+    return corners[..., 0] @ barycentric.T, corners[..., 1] @ barycentric.T, barycentric, weights

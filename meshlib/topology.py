@@ -154,3 +154,5 @@ def _refuse_shared_half_edges(elements, place):
         a, b = sorted(int(n) for n in (elements[first, TAILS[k]], elements[first, HEADS[k]]))
         raise MeshError("overlap", f"elements {first} and {second} lie on the same side of edge "
                         f"({a}, {b}); remove one or reverse its nodes", (first, second))
+
+

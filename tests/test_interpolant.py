@@ -148,6 +148,18 @@ def test_quadrature_is_exact_to_its_degree(degree):
             assert weights @ (points[:, 1] ** i * points[:, 2] ** j) == pytest.approx(exact, rel=1e-12)
 
 
+@pytest.mark.parametrize("points", [1, 100, 26 * 25])
+def test_batches_do_not_matter(points, monkeypatch):
+    """An element has 25 points of degree 8: one, four and 26 elements at once."""
+    from meshlib import interpolant
+    u = problems.functions["franke"]
+    u_h = Interpolant(problems.mesh("81"), u)
+    expected = u_h.squared_errors(u)
+    assert len(quadrature.rule(8)[1]) == 25
+    monkeypatch.setattr(interpolant, "POINTS_AT_ONCE", points)
+    assert np.allclose(u_h.squared_errors(u), expected, rtol=1e-12, atol=0)
+
+
 def test_trapezium_rule_by_hand(square):
     """u = 1 against u_h = 0 with 3 x 3 points: every weight times 1, the area."""
     u_h = Interpolant(square, np.zeros(4))

@@ -1,5 +1,6 @@
 """Maximum angle, skewness and aspect ratio: hand-made elements and identities."""
 import dataclasses
+import sys
 
 import numpy as np
 import pytest
@@ -65,6 +66,13 @@ def test_size_place_and_turn_do_not_matter(scale, rng):
     first, second = quality(mesh), quality(Mesh(scale * (mesh.nodes @ turn + 3), mesh.elements))
     for name in ("maximum_angle", "skewness", "aspect_ratio"):
         assert np.allclose(getattr(first, name), getattr(second, name), rtol=1e-6, atol=1e-7), name
+
+
+def test_batches_do_not_matter(rng, monkeypatch):
+    mesh = delaunay(rng.random((50, 2)))
+    expected = dataclasses.astuple(quality(mesh))
+    monkeypatch.setattr(sys.modules["meshlib.quality"], "AT_ONCE", 7)
+    assert np.array_equal(dataclasses.astuple(quality(mesh)), expected)
 
 
 def test_mean_max_and_table(square):

@@ -76,3 +76,8 @@ def readable(array):
 def flat(array):
     """A private, flat working copy: an array for numba, a list for plain Python."""
     return array.ravel().copy() if _numba else array.ravel().tolist()
+
+
+def writable(array):
+    """A flat array that a kernel writes into, itself and no copy, or a list for plain Python."""
+    return array if _numba else array.tolist()

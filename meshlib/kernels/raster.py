@@ -1,5 +1,6 @@
 r"""Values of u_h at the points of a regular grid, element by element, row by row.
 
+Points of the grid have whole coordinates here: lengths are measured in its cells.
 A row of the grid cuts an element in the points between two of its sides::
 
               c
@@ -10,48 +11,68 @@ A row of the grid cuts an element in the points between two of its sides::
 
 A point on a side is set by both neighbours, to the same value but for rounding.
 """
-from math import ceil, floor
+from math import ceil, floor, inf
 
 from .backend import compiled
+from .shapes import INSIDE, is_flat, plane
 
-INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
 SLACK = 1e-12  # of a cell, by which the rounding of a crossing may miss a point
 
 
 @compiled
-def points_between(low, high, step, slack, count):
-    """First and last of the points 0, step, ..., (count - 1) step from low to high."""
-    return max(0, ceil(low / step - slack)), min(count - 1, floor(high / step + slack))
+def points_between(low, high, slack, count):
+    """First and last of the points 0, 1, ..., count - 1 from low to high."""
+    return max(0, ceil(low - slack)), min(count - 1, floor(high + slack))
 
 
 @compiled
-def cut(px, py, qx, qy, y, room, low, high):
-    """What the side p-q, with the element to its left, leaves of low..high at height y."""
-    rise, over = qy - py, (qx - px) * (y - py) + room
-    if rise > 0:
-        return low, min(high, px + over / rise)
-    if rise < 0:
-        return max(low, px + over / rise), high
-    return (low, high) if over >= 0 else (high, low - 1)
+def side(run, rise, room):
+    """Slope of a side, and what it adds to the bounds: it is a right one if it rises, a left one if not.
 
-
-@compiled
-def filled(grid, nx, ny, dx, dy, slack, order, element, x, y, u, gx, gy):
-    """Set the grid, a flat list of ny rows of nx values with its first point at (0, 0).
-
-    Elements come in the given order, so that later ones decide on common points.
+    A level side bounds nothing: no row beyond it is asked.
     """
-    for t in order:
+    height = rise if abs(rise) > SLACK else inf
+    shift = room / height
+    return run / height, shift if rise < -SLACK else -inf, shift if rise > SLACK else inf
+
+
+@compiled
+def painted(grid, first, last, value, slope, empty):
+    """Set the points first..last of the flat grid; only those without a value if ``empty``."""
+    for k in range(first, last + 1):
+        if not (empty and grid[k] == grid[k]):
+            grid[k] = value + slope * (k - first)
+
+
+@compiled
+def filled(grid, nx, ny, low_x, low_y, dx, dy, slack, unit, element, node, u):
+    """Set the grid, a flat list of ny rows of nx values, NaN before, with its first point at (low_x, low_y).
+
+    Later elements decide on common points, flat ones only where no other has been.
+    """
+    for t in range(len(element) // 3):
         a, b, c = element[3 * t], element[3 * t + 1], element[3 * t + 2]
-        left, right = min(x[a], x[b], x[c]), max(x[a], x[b], x[c])
-        room = INSIDE * ((x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a]))
-        first, last = points_between(min(y[a], y[b], y[c]), max(y[a], y[b], y[c]), dy, slack, ny)
-        for j in range(first, last + 1):
-            height = j * dy
-            low, high = cut(x[a], y[a], x[b], y[b], height, room, left, right)
-            low, high = cut(x[b], y[b], x[c], y[c], height, room, low, high)
-            low, high = cut(x[c], y[c], x[a], y[a], height, room, low, high)
-            start = u[a] + gy[t] * (height - y[a])
-            i, end = points_between(low, high, dx, slack, nx)
-            for k in range(i, end + 1):
-                grid[j * nx + k] = start + gx[t] * (k * dx - x[a])
+        ax, ay = (node[2 * a] - low_x) * dx, (node[2 * a + 1] - low_y) * dy
+        ux, uy = (node[2 * b] - node[2 * a]) * dx, (node[2 * b + 1] - node[2 * a + 1]) * dy
+        vx, vy = (node[2 * c] - node[2 * a]) * dx, (node[2 * c + 1] - node[2 * a + 1]) * dy
+        left, right = ax + min(0.0, ux, vx), ax + max(0.0, ux, vx)
+        row, top = points_between(ay + min(0.0, uy, vy), ay + max(0.0, uy, vy), slack, ny)
+        i, end = points_between(left, right, slack, nx)
+        if row > top or i > end:
+            continue
+        det = ux * vy - uy * vx
+        if det <= 0:
+            continue
+        empty = is_flat(node, a, b, c, unit)
+        gx, gy = plane(ux, uy, vx, vy, u[b] - u[a], u[c] - u[a])
+        room = INSIDE * det
+        s1, l1, h1 = side(ux, uy, room)
+        s2, l2, h2 = side(vx - ux, vy - uy, room)
+        s3, l3, h3 = side(-vx, -vy, room)
+        for j in range(row, top + 1):
+            py = j - ay
+            qy = py - uy
+            lo = max(left, ax + s1 * py + l1, ax + ux + s2 * qy + l2, ax + s3 * py + l3)
+            hi = min(right, ax + s1 * py + h1, ax + ux + s2 * qy + h2, ax + s3 * py + h3)
+            i, end = points_between(lo, hi, slack, nx)
+            painted(grid, j * nx + i, j * nx + end, u[a] + gy * py + gx * (i - ax), gx, empty)
