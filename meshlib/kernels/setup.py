@@ -70,25 +70,3 @@ def planes(element, x, y, u, gx, gy, area):
         a, b, c = corners
         area[t] = (x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a])
         gx[t], gy[t] = plane(x, y, u, corners, area[t] if area[t] != 0 else float("nan"))
-
-
-@compiled
-def along_curve(points, low_x, low_y, width, height, place, bits):
-    """Set the place of each point of a box on Hilbert's curve through 4^bits cells of it.
-
-    Points are x, y, x, y, ...; the box has the corner (low_x, low_y).
-    """
-    side = 1 << bits
-    for n in range(len(place)):
-        i = min(int((points[2 * n] - low_x) / width * side), side - 1)
-        j = min(int((points[2 * n + 1] - low_y) / height * side), side - 1)
-        found, step = 0, side >> 1
-        while step > 0:
-            right, upper = (i & step) > 0, (j & step) > 0
-            found += step * step * ((3 * right) ^ upper)
-            if not upper:
-                if right:
-                    i, j = side - 1 - i, side - 1 - j
-                i, j = j, i
-            step >>= 1
-        place[n] = found
