@@ -98,10 +98,10 @@ class Procedure:
 
     def _start(self, order):
         """Order and tally of a run that has done nothing yet."""
-        from .kernels.backend import flat
+        from .kernels.backend import writable
         tally = np.zeros(codes.FAULT + 1, dtype=np.int64)
         tally[[codes.WAITING, codes.FAULT]] = len(order), -1
-        return flat(np.asarray(order, dtype=np.int32)), flat(tally)
+        return writable(np.array(order, dtype=np.int32)), writable(tally)
 
     def _arguments(self):
         """A fresh copy of the state, and all that a kernel wants after order, tally and limit."""
@@ -124,7 +124,7 @@ class Procedure:
             h = int(half[tally[codes.FAULT]])
             a, b = sorted(int(element[h - h % 3 + (h + step) % 3]) for step in (1, 2))
             raise not_a_cost(a, b)
-        elements = np.array(element, dtype=np.int32).reshape(-1, 3)
+        elements = np.asarray(element, dtype=np.int32).reshape(-1, 3)
         return Outcome(elements, *(int(tally[k]) for k in (codes.SWAPS, codes.SWEEPS, codes.TRIES)), trace)
 
     def _plain(self, order, trace, schedule, watch):
@@ -137,8 +137,8 @@ class Procedure:
     @cached_property
     def _data(self):
         """Coordinates and values of the nodes, as the kernel wants them."""
-        from .kernels.backend import flat
-        return tuple(flat(v) for v in (*self.mesh.nodes.T, self.values))
+        from .kernels.backend import readable
+        return tuple(readable(v) for v in (*self.mesh.nodes.T, self.values))
 
     @cached_property
     def _state(self):
@@ -147,12 +147,12 @@ class Procedure:
     def _new_state(self):
         """All that the kernel changes, before the first swap: the mesh, its planes and costs."""
         from .kernels import lop, setup
-        from .kernels.backend import flat
+        from .kernels.backend import flat, writable
         mesh, code = self.mesh, self.criterion.code
         element, (twin, slot, half) = flat(mesh.elements), half_edges(mesh.element_edges, mesh.n_edges)
-        planes = tuple(flat(np.empty(mesh.n_elements)) for _ in range(3))
-        cost = flat(np.zeros(mesh.n_edges))
-        settled = flat(np.full(mesh.n_edges, codes.UNKNOWN, dtype=np.int8))
+        planes = tuple(writable(np.empty(mesh.n_elements)) for _ in range(3))
+        cost = writable(np.zeros(mesh.n_edges))
+        settled = writable(np.full(mesh.n_edges, codes.UNKNOWN, dtype=np.int8))
         setup.planes(element, *self._data, *planes)
         if code < codes.SMALLEST_ANGLE:
             lop.first_costs(code, self.criterion.pointer, *self._data, element, twin, half, *planes, cost)
@@ -171,8 +171,8 @@ def _watched(kernel, watch, order, tally, *arguments):
 
 def _logs(rows):
     """Room to record so many tried swaps."""
-    from .kernels.backend import flat
-    return flat(np.zeros(6 * rows, dtype=np.int64)), flat(np.zeros(2 * rows))
+    from .kernels.backend import writable
+    return writable(np.zeros(6 * rows, dtype=np.int64)), writable(np.zeros(2 * rows))
 
 
 def _rows(sweep, log, costs, count):

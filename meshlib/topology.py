@@ -35,13 +35,13 @@ def _kernels_are_compiled():
 def _edge_table_by_counting(elements, n_nodes):
     """The same by a kernel, which is faster where there is much to do."""
     from .kernels import setup
-    from .kernels.backend import flat, readable
+    from .kernels.backend import readable, writable
     size, number = elements.size, np.int32
-    slot, edges = flat(np.empty(size, dtype=number)), flat(np.empty(2 * size, dtype=number))
-    rooms = (flat(np.zeros(n, dtype=number)) for n in (n_nodes + 1, size, size))
+    slot, edges = writable(np.empty(size, dtype=number)), writable(np.empty(2 * size, dtype=number))
+    rooms = (writable(np.zeros(n, dtype=number)) for n in (n_nodes + 1, size, size))
     count = setup.edge_table(readable(elements), *rooms, slot, edges)
-    return (np.array(edges[:2 * count], dtype=number).reshape(-1, 2),
-            np.array(slot, dtype=number).reshape(-1, 3))
+    return (np.asarray(edges[:2 * count], dtype=number).reshape(-1, 2),
+            np.asarray(slot, dtype=number).reshape(-1, 3))
 
 
 def sides(elements, element_edges, n_edges):
@@ -75,9 +75,9 @@ def half_edges(element_edges, n_edges):
     side seen from the neighbour, or -1.  Flat, as kernels want them, and theirs to change.
     """
     from .kernels import setup
-    from .kernels.backend import flat
+    from .kernels.backend import flat, writable
     slot = flat(element_edges)
-    twin, half = (flat(np.full(n, setup.NOWHERE, dtype=np.int32)) for n in (element_edges.size, n_edges))
+    twin, half = (writable(np.full(n, setup.NOWHERE, dtype=np.int32)) for n in (element_edges.size, n_edges))
     setup.twins(slot, twin, half)
     return twin, slot, half
 
