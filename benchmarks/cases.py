@@ -33,7 +33,7 @@ class Case:
     """Nodes of one kind, their Delaunay mesh, values of Franke's function, and as many random points."""
 
     def __init__(self, kind, n, seed=0):
-        rng = np.random.default_rng(seed)
+        rng, self.kind = np.random.default_rng(seed), kind
         self.nodes = KINDS[kind](n, rng)
         self.points = rng.random((2, len(self.nodes)))
         self.mesh = ml.delaunay(self.nodes)

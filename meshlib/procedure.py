@@ -107,7 +107,7 @@ class Procedure:
         """A fresh copy of the state, and all that a kernel wants after order, tally and limit."""
         state = self._new_state() if self.once else tuple(array.copy() for array in self._state)
         return state, (self.criterion.code, self.criterion.pointer, NORM_CODES[self.norm], *self.tolerance,
-                       self.limits.angle, 2 * self.limits.area, *self._data, *state)
+                       self.limits.angle, 2 * self.limits.area, self._points, *state)
 
     def _traced(self, schedules, order, tally, state, arguments):
         rows, logs, done = [], _logs(len(order)), False
@@ -135,10 +135,10 @@ class Procedure:
         return Outcome(_in_rows(elements, self.mesh), swaps, sweeps, len(tried), np.array(tried, dtype=TRACE))
 
     @cached_property
-    def _data(self):
-        """Coordinates and values of the nodes, as the kernel wants them."""
+    def _points(self):
+        """The points x, y, u, as the kernel wants them."""
         from .kernels.backend import readable
-        return tuple(readable(v) for v in (*self.mesh.nodes.T, self.values))
+        return readable(np.column_stack([self.mesh.nodes, self.values]))
 
     @cached_property
     def _state(self):
@@ -150,13 +150,13 @@ class Procedure:
         from .kernels.backend import flat, writable
         mesh, code = self.mesh, self.criterion.code
         element, (twin, slot, half) = flat(mesh.elements), half_edges(mesh.element_edges, mesh.n_edges)
-        planes = tuple(writable(np.empty(mesh.n_elements)) for _ in range(3))
+        face = writable(np.empty(3 * mesh.n_elements))
         cost = writable(np.zeros(mesh.n_edges))
         settled = writable(np.full(mesh.n_edges, codes.UNKNOWN, dtype=np.int8))
-        setup.planes(element, *self._data, *planes)
+        setup.faces(element, self._points, face)
         if code < codes.SMALLEST_ANGLE:
-            lop.first_costs(code, self.criterion.pointer, *self._data, element, twin, half, *planes, cost)
-        return element, twin, slot, half, *planes, cost, settled
+            lop.first_costs(code, self.criterion.pointer, self._points, element, twin, half, face, cost)
+        return element, twin, slot, half, face, cost, settled
 
 
 def _watched(kernel, watch, order, tally, *arguments):

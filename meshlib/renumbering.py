@@ -4,6 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
+from .errors import MeshError, not_a_cost
 from .mesh import Mesh
 from .procedure import Procedure
 
@@ -83,8 +84,14 @@ class AlongCurve:
     def run(self, order, trace=False, schedule="queue", watch=None):
         """As `Procedure.run`, with the edges in their order along the curve and not in the given one."""
         edges = np.arange(self._curve.mesh.n_edges, dtype=np.int32)
-        done = self._procedure.run(edges, trace, schedule, watch)
+        done = self._run(edges, trace, schedule, watch)
         return replace(done, elements=self._curve.restored(done.elements), trace=self._restored(done.trace))
+
+    def _run(self, *arguments):
+        try:
+            return self._procedure.run(*arguments)
+        except MeshError as error:  # of a cost that is not one, around an edge of the renumbered mesh
+            raise not_a_cost(*sorted(self._curve.nodes[list(error.items)].tolist())) from None
 
     def _restored(self, trace):
         nodes, found = self._curve.nodes, trace.copy()

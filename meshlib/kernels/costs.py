@@ -2,6 +2,9 @@
 
 Everything here is computed from the nodes of an element in an order that does not
 depend on the swaps before, so that it is the same number whenever the element occurs.
+
+Node n is the point x, y, u at 3 n of a flat array, and the face of element t, its
+gradient and doubled area, stands at 3 t of another: what is needed together lies together.
 """
 from math import atan2, inf, sqrt
 
@@ -27,30 +30,35 @@ def from_smallest(a, b, c):
 
 
 @compiled
-def turn(x, y, corners):
+def sides(point, corners):
+    """What leads along x and y from the first corner of an element to the second and to the third."""
+    a, b, c = 3 * corners[0], 3 * corners[1], 3 * corners[2]
+    return point[b] - point[a], point[b + 1] - point[a + 1], point[c] - point[a], point[c + 1] - point[a + 1]
+
+
+@compiled
+def turn(point, corners):
     """Twice the signed area of an element, or 0 if it is within rounding of flat."""
-    a, b, c = corners
-    left = (x[b] - x[a]) * (y[c] - y[a])
-    right = (x[c] - x[a]) * (y[b] - y[a])
+    bx, by, cx, cy = sides(point, corners)
+    left, right = bx * cy, cx * by
     area = left - right
     return area if abs(area) > FLAT * (abs(left) + abs(right)) else 0.0
 
 
 @compiled
-def is_convex(x, y, a, b, c, d):
+def is_convex(point, a, b, c, d):
     """Whether c-d crosses a-b strictly inside, but for rounding: if not, an element would be flat."""
-    dx, dy = x[d] - x[c], y[d] - y[c]
-    left = (x[a] - x[c]) * dy - (y[a] - y[c]) * dx
-    right = (x[b] - x[c]) * dy - (y[b] - y[c]) * dx
-    return left > 0 and right < 0
+    ax, ay, dx, dy = sides(point, (c, a, d))
+    bx, by, dx, dy = sides(point, (c, b, d))
+    return ax * dy - ay * dx > 0 and bx * dy - by * dx < 0
 
 
 @compiled
-def plane(x, y, u, corners, area):
+def plane(point, corners, area):
     """Gradient of the plane over an element, by differences from its first node."""
+    bx, by, cx, cy = sides(point, corners)
     a, b, c = corners
-    bx, by, bu = x[b] - x[a], y[b] - y[a], u[b] - u[a]
-    cx, cy, cu = x[c] - x[a], y[c] - y[a], u[c] - u[a]
+    bu, cu = point[3 * b + 2] - point[3 * a + 2], point[3 * c + 2] - point[3 * a + 2]
     return (bu * cy - cu * by) / area, (bx * cu - cx * bu) / area
 
 
@@ -77,15 +85,29 @@ def edge_cost(code, g, A, h, B, length):
 
 
 @compiled
-def own_edge_cost(given, x, y, u, p, q, left, right):
+def distance(point, a, b):
+    """Length of the edge a-b."""
+    return sqrt((point[3 * a] - point[3 * b]) ** 2 + (point[3 * a + 1] - point[3 * b + 1]) ** 2)
+
+
+@compiled
+def own_cost(given, point, a, b, c, d):
+    """What a function of one's own returns for four points."""
+    a, b, c, d = 3 * a, 3 * b, 3 * c, 3 * d
+    return given(point[a], point[a + 1], point[a + 2], point[b], point[b + 1], point[b + 2],
+                 point[c], point[c + 1], point[c + 2], point[d], point[d + 1], point[d + 2])
+
+
+@compiled
+def own_edge_cost(given, point, p, q, left, right):
     """Cost of the edge p-q by a function of one's own, which sees it from its smaller node."""
     if p > q:
         p, q, left, right = q, p, right, left
-    return given(x[p], y[p], u[p], x[q], y[q], u[q], x[left], y[left], u[left], x[right], y[right], u[right])
+    return own_cost(given, point, p, q, left, right)
 
 
 @inlined
-def side_cost(code, given, x, y, u, inner, g, A, j, a, b, element, gx, gy, area):
+def side_cost(code, given, point, inner, g, A, j, a, b, element, face):
     """Cost of the edge a-b, from the element on its left and the half-edge j beyond; 0 on the boundary.
 
     The element is (a, b, inner), of gradient g and area A/2.
@@ -93,27 +115,25 @@ def side_cost(code, given, x, y, u, inner, g, A, j, a, b, element, gx, gy, area)
     if j < 0:
         return 0.0
     if given is not None:
-        return own_edge_cost(given, x, y, u, a, b, inner, element[j])
-    length, beyond = 1.0, j // 3
-    if code >= DLP:
-        length = sqrt((x[a] - x[b]) ** 2 + (y[a] - y[b]) ** 2)
-    return edge_cost(code, g, A, (gx[beyond], gy[beyond]), area[beyond], length)
+        return own_edge_cost(given, point, a, b, inner, element[j])
+    beyond, length = 3 * (j // 3), distance(point, a, b) if code >= DLP else 1.0
+    return edge_cost(code, g, A, (face[beyond], face[beyond + 1]), face[beyond + 2], length)
 
 
 @compiled
-def corner(x, y, a, b, c):
+def corner(point, a, b, c):
     """The angle at a between b and c."""
-    ux, uy, vx, vy = x[b] - x[a], y[b] - y[a], x[c] - x[a], y[c] - y[a]
+    ux, uy, vx, vy = sides(point, (a, b, c))
     return atan2(abs(ux * vy - uy * vx), ux * vx + uy * vy)
 
 
 @compiled
-def element_cost(code, given, x, y, u, corners):
+def element_cost(code, given, point, corners):
     """How far the smallest or largest angle of an element is from 60 degrees, or a cost of one's own."""
     a, b, c = corners
-    if given is not None:  # it takes four points
-        return given(x[a], y[a], u[a], x[b], y[b], u[b], x[c], y[c], u[c], x[a], y[a], u[a])
-    p, q, r = corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)
+    if given is not None:
+        return own_cost(given, point, a, b, c, a)
+    p, q, r = corner(point, a, b, c), corner(point, b, c, a), corner(point, c, a, b)
     excess = EQUILATERAL - min(p, q, r) if code == SMALLEST_ANGLE else max(p, q, r) - EQUILATERAL
     return max(excess, 0.0)  # not below 0 by rounding
 
@@ -145,15 +165,15 @@ def is_below(norm, new, old, relative, absolute):
 
 
 @compiled
-def too_sharp(x, y, corners, min_angle):
+def too_sharp(point, corners, min_angle):
     """Whether an element has an angle below the limit (section 6.1)."""
     a, b, c = corners
-    return min(corner(x, y, a, b, c), corner(x, y, b, c, a), corner(x, y, c, a, b)) < min_angle
+    return min(corner(point, a, b, c), corner(point, b, c, a), corner(point, c, a, b)) < min_angle
 
 
 @compiled
-def refused(x, y, corners, area, min_angle, min_area):
+def refused(point, corners, area, min_angle, min_area):
     """Whether an element would be flat or break a limit of section 6.1."""
     if area <= 0 or area < min_area:
         return True
-    return min_angle > 0 and too_sharp(x, y, corners, min_angle)
+    return min_angle > 0 and too_sharp(point, corners, min_angle)

@@ -12,13 +12,14 @@ the same side seen from the neighbour, or -1; ``slot[h]`` is the number of its e
            \ /                  \|/          n1 .. n4: the elements beyond
             d                    d
 """
-from math import nan, sqrt
+from math import nan
 
 from .backend import compiled, inlined
 from .codes import DLP, INVALID, REFUSED, SMALLEST_ANGLE, SWAPPED, TRIED
 from .costs import (
     are_costs,
     combined,
+    distance,
     edge_cost,
     element_cost,
     from_smallest,
@@ -76,11 +77,11 @@ def flip(h, j, c, d, element, twin, slot, half):
 
 
 @compiled
-def element_costs(code, given, norm, x, y, u, a, b, c, d, cad, dbc):
+def element_costs(code, given, norm, point, a, b, c, d, cad, dbc):
     """Cost of the elements at a-b and of those at c-d instead; NaN if one is not a cost."""
-    p = element_cost(code, given, x, y, u, from_smallest(c, a, b))
-    q = element_cost(code, given, x, y, u, from_smallest(d, b, a))
-    r, s = element_cost(code, given, x, y, u, cad), element_cost(code, given, x, y, u, dbc)
+    p = element_cost(code, given, point, from_smallest(c, a, b))
+    q = element_cost(code, given, point, from_smallest(d, b, a))
+    r, s = element_cost(code, given, point, cad), element_cost(code, given, point, dbc)
     if given is not None and not are_costs(p, q, r, s, 0.0):
         return nan, nan
     return combined(norm, p, q, 0.0, 0.0, 0.0), combined(norm, r, s, 0.0, 0.0, 0.0)
@@ -100,35 +101,38 @@ def known_cost(norm, five, cost):
 
 
 @compiled
-def diagonal_cost(code, given, x, y, u, a, b, c, d, g, A, k, B):
+def diagonal_cost(code, given, point, a, b, c, d, g, A, k, B):
     """Cost of c-d between (c, a, d) and (d, b, c), of gradients g, k and areas A/2, B/2."""
     if given is not None:
-        return own_edge_cost(given, x, y, u, c, d, b, a)
-    length = 1.0
-    if code >= DLP:
-        length = sqrt((x[c] - x[d]) ** 2 + (y[c] - y[d]) ** 2)
-    return edge_cost(code, g, A, k, B, length)
+        return own_edge_cost(given, point, c, d, b, a)
+    return edge_cost(code, g, A, k, B, distance(point, c, d) if code >= DLP else 1.0)
 
 
 @inlined
-def new_costs(code, given, x, y, u, a, b, c, d, beyond, across, g, A, k, B, element, gx, gy, area):
+def new_costs(code, given, point, a, b, c, d, beyond, across, g, A, k, B, element, face):
     """Costs of c-d, which is ``across``, and of b-c, c-a, a-d, d-b after the swap."""
     bc, ca, ad, db = beyond
     return (across,
-            side_cost(code, given, x, y, u, d, k, B, bc, b, c, element, gx, gy, area),
-            side_cost(code, given, x, y, u, d, g, A, ca, c, a, element, gx, gy, area),
-            side_cost(code, given, x, y, u, c, g, A, ad, a, d, element, gx, gy, area),
-            side_cost(code, given, x, y, u, c, k, B, db, d, b, element, gx, gy, area))
+            side_cost(code, given, point, d, k, B, bc, b, c, element, face),
+            side_cost(code, given, point, d, g, A, ca, c, a, element, face),
+            side_cost(code, given, point, c, g, A, ad, a, d, element, face),
+            side_cost(code, given, point, c, k, B, db, d, b, element, face))
 
 
 @compiled
-def first_costs(code, given, x, y, u, element, twin, half, gx, gy, area, cost):
+def first_costs(code, given, point, element, twin, half, face, cost):
     """Set the cost of every edge of the start mesh."""
     for e in range(len(half)):
         h = half[e]
-        t, a, b = h // 3, element[after(h)], element[before(h)]
-        cost[e] = side_cost(code, given, x, y, u, element[h], (gx[t], gy[t]), area[t], twin[h], a, b,
-                            element, gx, gy, area)
+        t, a, b = 3 * (h // 3), element[after(h)], element[before(h)]
+        cost[e] = side_cost(code, given, point, element[h], (face[t], face[t + 1]), face[t + 2], twin[h],
+                            a, b, element, face)
+
+
+@compiled
+def set_face(face, t, g, A):
+    """Gradient and doubled area of an element."""
+    face[3 * t], face[3 * t + 1], face[3 * t + 2] = g[0], g[1], A
 
 
 @compiled
@@ -141,7 +145,7 @@ def record(log, costs, row, e, a, b, c, d, accepted, old, new):
 
 @inlined
 def inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
-            x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs, row):
+            point, element, twin, slot, half, face, cost, settled, log, costs, row):
     """Swap an edge if it is not locally optimal: REFUSED, TRIED or SWAPPED; or INVALID.
 
     With room in ``log`` and ``costs`` a tried swap is recorded there in the given row.
@@ -152,26 +156,25 @@ def inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
     if j < 0:
         return REFUSED
     a, b, c, d = element[after(h)], element[before(h)], element[h], element[j]
-    if not is_convex(x, y, a, b, c, d):
+    if not is_convex(point, a, b, c, d):
         return REFUSED
     cad, dbc = from_smallest(c, a, d), from_smallest(d, b, c)
-    A, B = turn(x, y, cad), turn(x, y, dbc)
-    if refused(x, y, cad, A, min_angle, min_area) or refused(x, y, dbc, B, min_angle, min_area):
+    A, B = turn(point, cad), turn(point, dbc)
+    if refused(point, cad, A, min_angle, min_area) or refused(point, dbc, B, min_angle, min_area):
         return REFUSED
     settled[e] = TRIED
     traced = len(log) > 0
-    g, k, five = plane(x, y, u, cad, A), plane(x, y, u, dbc, B), around(h, j, slot)
+    g, k, five = plane(point, cad, A), plane(point, dbc, B), around(h, j, slot)
     if code >= SMALLEST_ANGLE:
         fresh = (0.0, 0.0, 0.0, 0.0, 0.0)
-        old, new = element_costs(code, given, norm, x, y, u, a, b, c, d, cad, dbc)
+        old, new = element_costs(code, given, norm, point, a, b, c, d, cad, dbc)
     else:
         old = known_cost(norm, five, cost)
-        across = diagonal_cost(code, given, x, y, u, a, b, c, d, g, A, k, B)
+        across = diagonal_cost(code, given, point, a, b, c, d, g, A, k, B)
         least = combined(norm, across, 0.0, 0.0, 0.0, 0.0)  # whatever the sides cost
         if given is None and not traced and not is_below(norm, least, old, relative, absolute):
             return TRIED
-        fresh = new_costs(code, given, x, y, u, a, b, c, d, outer(h, j, twin), across, g, A, k, B,
-                          element, gx, gy, area)
+        fresh = new_costs(code, given, point, a, b, c, d, outer(h, j, twin), across, g, A, k, B, element, face)
         new = combined(norm, fresh[0], fresh[2], fresh[3], fresh[4], fresh[1])
     if given is not None and not (old >= 0 and are_costs(*fresh)):
         return INVALID
@@ -181,8 +184,7 @@ def inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
     if not accepted:
         return TRIED
     flip(h, j, c, d, element, twin, slot, half)
-    t, s = h // 3, j // 3
-    gx[t], gy[t], area[t] = g[0], g[1], A
-    gx[s], gy[s], area[s] = k[0], k[1], B
+    set_face(face, h // 3, g, A)
+    set_face(face, j // 3, k, B)
     cost[five[0]], cost[five[1]], cost[five[2]], cost[five[3]], cost[five[4]] = fresh
     return SWAPPED

@@ -10,7 +10,6 @@ from .codes import BEFORE, FAULT, INVALID, PLACE, REFUSED, SWAPPED, SWAPS, SWEEP
 from .lop import after, before, inspect
 
 
-
 @compiled
 def unsettle(h, element, twin, slot, settled, queue, last, n):
     """Mark the edges whose local cost the swap to the edge of half-edge h may have changed.
@@ -45,7 +44,7 @@ def wake(e, settled, queue, place, n):
 
 @compiled
 def sweep(order, tally, limit, code, given, norm, relative, absolute, min_angle, min_area,
-          x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs):
+          point, element, twin, slot, half, face, cost, settled, log, costs):
     """Inspect the next edges of a sweep, and swap those that are not locally optimal.
 
     An edge around which nothing has changed since it was last inspected is passed
@@ -60,7 +59,7 @@ def sweep(order, tally, limit, code, given, norm, relative, absolute, min_angle,
             tried += settled[e]
             continue
         found = inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
-                        x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs, tried)
+                        point, element, twin, slot, half, face, cost, settled, log, costs, tried)
         tried += found != REFUSED
         if found == SWAPPED:
             unsettle(half[e], element, twin, slot, settled, order, 0, 0)
@@ -88,13 +87,13 @@ def is_last(tally):
 
 @compiled
 def swept(order, tally, limit, code, given, norm, relative, absolute, min_angle, min_area,
-          x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs):
+          point, element, twin, slot, half, face, cost, settled, log, costs):
     """Sweep until nothing is swapped, or the limit is reached; whether all is done."""
     begin = tally[SWEEPS] * len(order) + tally[PLACE]
     while tally[SWEEPS] * len(order) + tally[PLACE] - begin < limit:
         left = begin + limit - tally[SWEEPS] * len(order) - tally[PLACE]
         sweep(order, tally, left, code, given, norm, relative, absolute, min_angle, min_area,
-              x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs)
+              point, element, twin, slot, half, face, cost, settled, log, costs)
         if is_last(tally):
             return True
     return False
@@ -102,7 +101,7 @@ def swept(order, tally, limit, code, given, norm, relative, absolute, min_angle,
 
 @compiled
 def drained(queue, tally, limit, code, given, norm, relative, absolute, min_angle, min_area,
-            x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs):
+            point, element, twin, slot, half, face, cost, settled, log, costs):
     """Inspect the first of a queue of edges until it is empty; a swap queues what it may have changed.
 
     The queue holds all edges at first and is overwritten.  Returns whether all is done.
@@ -115,7 +114,7 @@ def drained(queue, tally, limit, code, given, norm, relative, absolute, min_angl
         if first == n:
             first = 0
         found = inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
-                        x, y, u, element, twin, slot, half, gx, gy, area, cost, settled, log, costs, tried)
+                        point, element, twin, slot, half, face, cost, settled, log, costs, tried)
         tried += found != REFUSED
         if found == SWAPPED:
             waiting += unsettle(half[e], element, twin, slot, settled, queue, first + waiting, n)

@@ -3,8 +3,8 @@ r"""What the procedure needs of a mesh before its first swap, in passes over fla
 Half-edge h = 3 t + k is the side of element t opposite its node k, as in `lop`.
 """
 from .backend import compiled
-from .costs import from_smallest, plane
-from .lop import after, before
+from .costs import from_smallest, plane, sides
+from .lop import after, before, set_face
 
 NOWHERE = -1
 
@@ -63,10 +63,10 @@ def twins(slot, twin, half):
 
 
 @compiled
-def planes(element, x, y, u, gx, gy, area):
+def faces(element, point, face):
     """Set gradient and doubled area of each element."""
-    for t in range(len(area)):
+    for t in range(len(element) // 3):
         corners = from_smallest(element[3 * t], element[3 * t + 1], element[3 * t + 2])
-        a, b, c = corners
-        area[t] = (x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a])
-        gx[t], gy[t] = plane(x, y, u, corners, area[t] if area[t] != 0 else float("nan"))
+        bx, by, cx, cy = sides(point, corners)
+        area = bx * cy - cx * by
+        set_face(face, t, plane(point, corners, area if area != 0 else float("nan")), area)
