@@ -1,4 +1,4 @@
-"""Time and memory of calls, all in one process that does nothing else: ``python meter.py quality random 10000``."""
+"""Time and memory of calls, in a process of their own: ``python meter.py quality random 10000 5``."""
 import gc
 import json
 import sys
@@ -14,7 +14,7 @@ MEGABYTE = 1 << 10  # in the kilobytes of the status
 
 
 def resident(what):
-    """Memory of this process in MB, ``"VmRSS"`` now or ``"VmHWM"`` at most; none if the system keeps silent."""
+    """Memory of this process in MB, ``"VmRSS"`` now or ``"VmHWM"`` at most; None where it is not told."""
     if not STATUS.exists():
         return None
     line = next(line for line in STATUS.read_text().splitlines() if line.startswith(what))
@@ -46,12 +46,13 @@ def measured(measure, kind, n, runs):
     for calls in MEASURES[measure](Case(kind, SMALL)):
         for call in calls.values():
             call()
-    calls = [(who, name, call) for who, named in zip(("ours", "peer"), MEASURES[measure](Case(kind, n)), strict=True)
-             for name, call in named.items()]
+    both = zip(("ours", "peer"), MEASURES[measure](Case(kind, n)), strict=True)
+    calls = [(who, name, call) for who, named in both for name, call in named.items()]
     added = [memory(call) for _, _, call in calls]
     times = [[seconds(call) for _, _, call in calls] for _ in range(runs)]
-    return [{"measure": measure, "kind": kind, "nodes": n, "who": who, "name": name, "memory": mb, "times": list(row)}
-            for (who, name, _), mb, row in zip(calls, added, zip(*times, strict=True), strict=True)]
+    case = {"measure": measure, "kind": kind, "nodes": n}
+    return [case | {"who": who, "name": name, "memory": most, "times": list(row)}
+            for (who, name, _), most, row in zip(calls, added, zip(*times, strict=True), strict=True)]
 
 
 if __name__ == "__main__":

@@ -10,20 +10,21 @@ from meshlib.thesis.tables import grid, markdown
 RESULTS = Path(__file__).with_name("results.json")
 KINDS = ("random", "clustered", "gridded")
 MILLION = 1_000_000
-COLOUR = plotting.PALETTE
-MARKERS = "osv^D*X"
+MARKERS, COLOURS = "osv^D", [plotting.PALETTE[c] for c in ("blue", "green", "sky", "orange", "black")]
+PANEL = 3.1  # inches
 # A goal: text, of which measure, nodes, what is divided by what ("ours" or a peer), and the limit.
 GOALS = (
-    *((f"adjacency and swapping with {name} / Delaunay", "swapping", MILLION, name, "SciPy Delaunay", "<=", goal)
-      for name, goal in (("JND-L2", 0.10), ("ABN-L1", 0.20), ("ABN-L2", 0.20))),
+    *((f"adjacency and swapping with {name} / Delaunay", "swapping", MILLION, name, "SciPy Delaunay", "<=",
+       goal) for name, goal in (("JND-L2", 0.10), ("ABN-L1", 0.20), ("ABN-L2", 0.20))),
     *(("matplotlib / values on a grid", "grid", n, "matplotlib", "on_grid", ">=", goal)
       for n, goal in ((10_000, 35), (100_000, 90), (MILLION, 300))),
     ("SciPy / values at scattered points", "scattered", MILLION, "SciPy LinearND", "Interpolant", ">=", 5),
     ("scikit-fem / red-green refinement", "refinement", MILLION, "scikit-fem", "red-green", ">=", 3),
-    *((f"{peer} / quality", "quality", MILLION, peer, "three measures", ">=", 1) for peer in ("VTK", "matplotlib")),
+    *((f"{peer} / quality", "quality", MILLION, peer, "three measures", ">=", 1)
+      for peer in ("VTK", "matplotlib")),
 )
-GROWTH = (("swapping", "JND-L2"), ("refinement", "red-green"), ("grid", "on_grid"), ("scattered", "Interpolant"),
-          ("quality", "three measures"))
+GROWTH = (("swapping", "JND-L2"), ("refinement", "red-green"), ("grid", "on_grid"),
+          ("scattered", "Interpolant"), ("quality", "three measures"))
 MOST_GROWTH = 13
 STARTS = {"import meshlib": 0.25, "first swapping, 81 nodes": 0.2, "without numba, 33 nodes": 0.006,
           "without numba, 81 nodes": 0.006}
@@ -67,12 +68,13 @@ def _ratios():
 def _growths():
     for measure, name in GROWTH:
         large, small = (found(measure, "random", n, name) for n in (MILLION, MILLION // 10))
-        yield _row(f"growth of {measure} ({name}), time at ten times the nodes / time", MILLION, "<=", MOST_GROWTH,
-                   large and small and large / small)
+        yield _row(f"growth of {measure} ({name}), time at ten times the nodes / time", MILLION, "<=",
+                   MOST_GROWTH, large and small and large / small)
 
 
 def _memory():
-    ours, peer = (found("swapping", "random", MILLION, name, "memory") for name in ("JND-L2", "SciPy Delaunay"))
+    ours, peer = (found("swapping", "random", MILLION, name, "memory")
+                  for name in ("JND-L2", "SciPy Delaunay"))
     yield _row("peak memory of swapping / of Delaunay", MILLION, "<=", 1, ours and peer and ours / peer)
 
 
@@ -118,7 +120,8 @@ def _times(measure, name, kind, sizes):
     cells = []
     for n in sizes:
         time, memory = (found(measure, kind, n, name, field) for field in ("times", "memory"))
-        cells.append("" if time is None else f"{time:.3g} s" + ("" if memory is None else f", {memory:.0f} MB"))
+        space = "" if memory is None else f", {memory:.0f} MB"
+        cells.append("" if time is None else f"{time:.3g} s{space}")
     return (measure, name, kind, *cells)
 
 
@@ -126,8 +129,9 @@ def picture(*measures):
     """Time against the number of nodes, a row of panels for each measure, a panel for each kind of nodes."""
     pyplot = plotting.look.pyplot()
     with plotting.style():
-        figure, rows = pyplot.subplots(len(measures), len(KINDS), layout="constrained", squeeze=False, sharey="row",
-                                       sharex=True, figsize=(plotting.WIDTH, 3.1 * len(measures)))
+        figure, rows = pyplot.subplots(len(measures), len(KINDS), layout="constrained", squeeze=False,
+                                       sharex=True, sharey="row",
+                                       figsize=(plotting.WIDTH, PANEL * len(measures)))
         for measure, row in zip(measures, rows, strict=True):
             for kind, ax in zip(KINDS, row, strict=True):
                 _curves(ax, measure, kind)
@@ -141,14 +145,14 @@ def picture(*measures):
 
 
 def _curves(ax, measure, kind):
-    lines = [line for line in results()["results"] if (line["measure"], line["kind"]) == (measure, kind)]
+    lines = [line for line in results()["results"] if line["measure"] == measure and line["kind"] == kind]
     names = list(dict.fromkeys(line["name"] for line in lines))
-    for name, marker, colour in zip(names, MARKERS, ("blue", "green", "sky", "orange", "black"), strict=False):
-        points = [(line["nodes"], median(line["times"]), line["who"]) for line in lines if line["name"] == name]
-        nodes, times, who = zip(*points, strict=True)
-        peer = who[0] == "peer"
+    for name, marker, colour in zip(names, MARKERS, COLOURS, strict=False):
+        own = [line for line in lines if line["name"] == name]
+        nodes, times = [line["nodes"] for line in own], [median(line["times"]) for line in own]
+        peer = own[0]["who"] == "peer"
         ax.plot(nodes, times, marker=marker, markersize=5, label=name, linestyle="--" if peer else "-",
-                color=plotting.ACCENT if peer else COLOUR[colour])
+                color=plotting.ACCENT if peer else colour)
     ax.set(xscale="log", yscale="log")
     ax.spines[["top", "right"]].set_visible(False)
     ax.grid(True, color=plotting.look.FAINT, linewidth=0.5)

@@ -13,6 +13,7 @@ import platform
 import statistics
 import subprocess
 import sys
+from datetime import date
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -26,7 +27,7 @@ PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "scikit-fem", "pyvista", "v
 
 def about():
     """The machine and the versions."""
-    return {"date": f"{__import__('datetime').date.today()}", "machine": platform.machine(),
+    return {"date": str(date.today()), "machine": platform.machine(),
             "processor": _processor(), "cores": os.cpu_count(), "system": platform.system(),
             "python": platform.python_version(),
             "versions": {name: found for name in PACKAGES if (found := _version(name))}}
@@ -61,7 +62,8 @@ def show(line):
 
 def main(arguments=None):
     """Measure, print and write."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    as_it_is = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=as_it_is)
     parser.add_argument("--nodes", type=int, nargs="+", default=[10_000, 100_000])
     parser.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS))
     parser.add_argument("--measures", nargs="+", choices=MEASURES, default=list(MEASURES))

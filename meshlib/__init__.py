@@ -1,5 +1,6 @@
 """Data-dependent triangulation: nodal values in, a better triangulation out."""
 from . import criteria, problems
+from .approximation import approximate
 from .delaunay import delaunay
 from .errors import Interrupted, MeshError
 from .interpolant import Interpolant
@@ -14,5 +15,5 @@ from .swapping import swapped
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["Interpolant", "Interrupted", "Mesh", "MeshError", "criteria", "delaunay",
+__all__ = ["Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "criteria", "delaunay",
            "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped"]

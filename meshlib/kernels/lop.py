@@ -174,7 +174,8 @@ def inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
         least = combined(norm, across, 0.0, 0.0, 0.0, 0.0)  # whatever the sides cost
         if given is None and not traced and not is_below(norm, least, old, relative, absolute):
             return TRIED
-        fresh = new_costs(code, given, point, a, b, c, d, outer(h, j, twin), across, g, A, k, B, element, face)
+        fresh = new_costs(code, given, point, a, b, c, d, outer(h, j, twin), across, g, A, k, B,
+                          element, face)
         new = combined(norm, fresh[0], fresh[2], fresh[3], fresh[4], fresh[1])
     if given is not None and not (old >= 0 and are_costs(*fresh)):
         return INVALID

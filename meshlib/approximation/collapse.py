@@ -1,0 +1,157 @@
+r"""Nodes taken out again where they serve least, and nodes put on the boundary that all but lie on it."""
+import numpy as np
+
+from .choice import independent
+from .sides import CORNER, INTERIOR
+
+NEAR = 0.1  # of a boundary edge: the height at which a node over it may be put on it
+BETWEEN = 0.05  # of the same: how far from its ends
+
+
+def collapse(draft, share):
+    r"""Draw the cheapest nodes, up to a share of all, into a neighbour; returns how many.
+
+    ::
+
+          *---*              *---*
+         / \ / \            / \   \
+        *---i---j    --->  *---\---j     the two elements at i-j vanish
+         \ / \ /            \ / \ /      (drawn: i goes into j)
+          *---*              *---*
+    """
+    pairs = _Pairs(draft)
+    cost, into = pairs.cheapest(draft)
+    number = int(share * draft.n_nodes)
+    nodes = np.argsort(cost, kind="stable")[:number]
+    nodes = nodes[np.isfinite(cost[nodes])]
+    corner, row = draft.patches().of(nodes)
+    chosen = nodes[independent(-cost[nodes], row, corner // 3, len(draft.elements))]
+    _draw(draft, chosen, into[chosen])
+    return len(chosen)
+
+
+class _Pairs:
+    """All pairs (i, j) of a node that may go and a neighbour into which it may be drawn."""
+
+    def __init__(self, draft):
+        nodes = np.flatnonzero(draft.side != CORNER)
+        self.j, row = draft.neighbours().of(nodes)
+        self.i = nodes[row]
+        allowed = (draft.side[self.i] == INTERIOR) | self._along_side(draft)
+        self.i, self.j = self.i[allowed], self.j[allowed]
+
+    def _along_side(self, draft):
+        ends = np.sort(np.stack([self.i, self.j], axis=1), axis=1)
+        return draft.mesh.boundary[draft.mesh.edge_numbers(ends)]
+
+    def cheapest(self, draft):
+        """For each node the least cost of drawing it into a neighbour, and that neighbour."""
+        cost = self._costs(draft)
+        order = np.lexsort((np.arange(len(cost)), cost, self.i))
+        first = order[np.flatnonzero(np.diff(self.i[order], prepend=-1))]
+        least, into = np.full(draft.n_nodes, np.inf), np.full(draft.n_nodes, -1)
+        least[self.i[first]], into[self.i[first]] = cost[first], self.j[first]
+        return least, into
+
+    def _costs(self, draft):
+        """Error of the patch after less that before."""
+        corner, row = draft.patches().of(self.i)
+        nodes, k = draft.elements[corner // 3], corner % 3
+        stays = (nodes != self.j[row][:, None]).all(axis=1)
+        nodes, k, row = nodes[stays].copy(), k[stays], row[stays]
+        nodes[np.arange(len(row)), k] = self.j[row]
+        after = np.bincount(row, draft.error_of(nodes), len(self.i))
+        before = np.bincount(draft.elements.ravel(), np.repeat(draft.errors, 3), draft.n_nodes)
+        return after - before[self.i] + self._edge_costs(draft)
+
+    def _edge_costs(self, draft):
+        """The same along the boundary, for nodes on a side: one edge in place of two."""
+        cost = np.zeros(len(self.i))
+        bound = np.flatnonzero(draft.side[self.i] != INTERIOR)
+        i, j = self.i[bound], self.j[bound]
+        other = beside(draft, i).sum(axis=1) - j
+        old = draft.edge_error_of(np.stack([i, j], 1)) + draft.edge_error_of(np.stack([i, other], 1))
+        cost[bound] = draft.edge_error_of(np.stack([other, j], 1)) - old
+        return cost
+
+
+def beside(draft, nodes):
+    """The two neighbours along the boundary of nodes on a side."""
+    edges = draft.mesh.edges[draft.mesh.boundary]
+    pairs = np.concatenate([edges, edges[:, ::-1]])
+    pairs = pairs[np.argsort(pairs[:, 0], kind="stable")]
+    first = np.searchsorted(pairs[:, 0], nodes)
+    return pairs[np.stack([first, first + 1], axis=1), 1]
+
+
+def _draw(draft, nodes, into):
+    """Take nodes out by drawing each into another."""
+    target, gone = np.arange(draft.n_nodes), np.zeros(draft.n_nodes, dtype=bool)
+    target[nodes], gone[nodes] = into, True
+    rows = target[draft.elements]
+    changed = (rows != draft.elements).any(axis=1)
+    kept = (rows != np.roll(rows, 1, axis=1)).all(axis=1)
+    number = (np.cumsum(~gone) - 1).astype(np.int32)
+    draft.nodes, draft.values, draft.side = draft.nodes[~gone], draft.values[~gone], draft.side[~gone]
+    draft.elements, draft.boundary = number[rows[kept]], draft.boundary.renumbered(number)
+    draft.settle(np.where(changed, np.nan, draft.errors)[kept], (draft.fresh | changed)[kept])
+
+
+def settle_on_boundary(draft):
+    r"""Put nodes that all but lie on a boundary edge on it, where that lowers the error; returns how many.
+
+    ::
+
+          ...n...                       the element (n, a, b) vanishes
+        a---------b    --->    a---n---b
+    """
+    edges = np.flatnonzero(draft.mesh.boundary)
+    ends, element = draft.mesh.edges[edges], draft.mesh.edge_elements[edges, 0]
+    node = draft.elements[element].sum(axis=1) - ends.sum(axis=1)
+    side = draft.boundary.of_edges(ends, draft.side)
+    foot = draft.boundary.snapped(draft.nodes[node], side)
+    over = _is_near(draft.nodes[ends], draft.nodes[node], foot)
+    near = np.flatnonzero((draft.side[node] == INTERIOR) & over)
+    gain, values = _gain(draft, node[near], element[near], ends[near], foot[near])
+    good = near[gain > 0]
+    corner, row = draft.patches().of(node[good])
+    chosen = independent(gain[gain > 0], row, corner // 3, len(draft.elements))
+    _put(draft, node[good][chosen], element[good][chosen], foot[good][chosen], values[gain > 0][chosen],
+         side[good][chosen])
+    return len(chosen)
+
+
+def _is_near(ends, point, foot):
+    along = ends[:, 1] - ends[:, 0]
+    length = np.hypot(*along.T)
+    share = ((foot - ends[:, 0]) * along).sum(axis=1) / length ** 2
+    return (np.hypot(*(point - foot).T) < NEAR * length) & (np.abs(share - 0.5) < 0.5 - BETWEEN)
+
+
+def _gain(draft, node, element, ends, foot):
+    """By how much the error of each patch falls, and the values on the boundary."""
+    values = draft.misfit.values(*foot.T.copy())
+    corner, row = draft.patches().of(node)
+    stays = corner // 3 != element[row]
+    rows, k = draft.elements[corner[stays] // 3], corner[stays] % 3
+    corners, nodal = draft.nodes[rows], draft.values[rows]
+    place = np.arange(len(rows)), k
+    corners[place], nodal[place] = foot[row[stays]], values[row[stays]]
+    after = np.bincount(row[stays], draft.misfit.on_elements(corners, nodal), len(node))
+    before = np.bincount(row, draft.errors[corner // 3], len(node)) + draft.edge_error_of(ends)
+    for end in ends.T:
+        pair = np.stack([draft.nodes[end], foot], 1), np.stack([draft.values[end], values], 1)
+        after = after + draft.weight * draft.misfit.on_edges(*pair)
+    return before - after, values
+
+
+def _put(draft, node, element, foot, values, side):
+    if not len(node):
+        return
+    draft.nodes, draft.values, draft.side = draft.nodes.copy(), draft.values.copy(), draft.side.copy()
+    draft.nodes[node], draft.values[node], draft.side[node] = foot, values, side
+    kept = np.ones(len(draft.elements), dtype=bool)
+    kept[element] = False
+    changed = np.isin(draft.elements, node).any(axis=1)
+    draft.elements = draft.elements[kept]
+    draft.settle(np.where(changed, np.nan, draft.errors)[kept], (draft.fresh | changed)[kept])

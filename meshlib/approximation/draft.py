@@ -1,0 +1,94 @@
+"""A mesh in the making: what operations replace, and the error of each element."""
+import numpy as np
+
+from ..mesh import Mesh
+from ..topology import grouped
+from .sides import sides_of
+
+BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
+
+
+class Draft:
+    """Nodes, values and elements, the error of each element, and which elements are new.
+
+    Operations of the package replace its arrays and end with `settle`.
+
+    Attributes
+    ----------
+    nodes, values, elements : (N, 2), (N,), (T, 3) ndarray
+    side : (N,) ndarray of int
+        Number of the straight side of the domain on which a node lies; INTERIOR or CORNER.
+    errors : (T,) ndarray of float
+        Integral of the squared error over each element.
+    fresh : (T,) ndarray of bool
+        Whether an element has changed since its edges were last considered.
+    misfit : Misfit
+    """
+
+    def __init__(self, misfit, mesh):
+        self.misfit, self.nodes, self.elements = misfit, mesh.nodes, mesh.elements
+        self.boundary = sides_of(mesh)
+        self.side = self.boundary.of_node.copy()
+        self.values = misfit.values(*(np.ascontiguousarray(v) for v in mesh.nodes.T))
+        self.settle(np.full(mesh.n_elements, np.nan), np.ones(mesh.n_elements, dtype=bool))
+
+    def settle(self, errors, fresh):
+        """Take over new arrays; errors that are not a number are computed."""
+        self.mesh = Mesh._trusted(self.nodes, self.elements)
+        self.errors, self.fresh = errors, fresh
+        unknown = np.flatnonzero(np.isnan(errors))
+        self.errors[unknown] = self.error_of(self.elements[unknown])
+
+    @property
+    def n_nodes(self):
+        """Number of nodes."""
+        return len(self.nodes)
+
+    @property
+    def error(self):
+        """The L2 norm of the error."""
+        return float(np.sqrt(self.errors.sum()))
+
+    @property
+    def weight(self):
+        """What a unit of the squared error along the boundary counts as."""
+        return BOUNDARY_SHARE * np.sqrt(self.mesh.domain_area / self.n_nodes)
+
+    def error_of(self, elements):
+        """Integral of the squared error over elements given by node numbers, (m, 3)."""
+        return self.misfit.on_elements(self.nodes[elements], self.values[elements])
+
+    def edge_error_of(self, pairs):
+        """Weighted integral of the squared error along edges given by node numbers, (m, 2)."""
+        return self.weight * self.misfit.on_edges(self.nodes[pairs], self.values[pairs])
+
+    def edge_errors(self):
+        """(T,): weighted error along the boundary edges of each element."""
+        found = np.zeros(len(self.elements))
+        boundary = np.flatnonzero(self.mesh.boundary)
+        np.add.at(found, self.mesh.edge_elements[boundary, 0], self.edge_error_of(self.mesh.edges[boundary]))
+        return found
+
+    def patches(self):
+        """The elements around each node."""
+        return Rows(*grouped(self.elements.ravel(), self.n_nodes))
+
+    def neighbours(self):
+        """The nodes joined to each node: rows of `heads` of the half-edges in both directions."""
+        edges = self.mesh.edges
+        rows, starts = grouped(np.concatenate([edges[:, 0], edges[:, 1]]), self.n_nodes)
+        return Rows(np.concatenate([edges[:, 1], edges[:, 0]])[rows], starts)
+
+
+class Rows:
+    """Lists of numbers of different lengths, one after the other."""
+
+    def __init__(self, numbers, starts):
+        self.numbers, self.starts = numbers, starts
+
+    def of(self, which):
+        """Numbers in the lists of some, one list after the other, and for each the place in ``which``."""
+        lengths = self.starts[which + 1] - self.starts[which]
+        row = np.repeat(np.arange(len(which)), lengths)
+        ahead = np.cumsum(lengths) - lengths
+        return self.numbers[np.arange(len(row)) - ahead[row] + self.starts[which][row]], row

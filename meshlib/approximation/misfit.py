@@ -1,0 +1,176 @@
+"""How far u_h is from a known u: integrals of the squared error over elements and along edges."""
+from functools import cache
+
+import numpy as np
+
+from ..errors import MeshError
+
+# Dunavant 1985, degree 6: twelve points, the same from each corner.
+ORBITS = ((0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
+          (0.06308901449150223, 0.06308901449150223, 0.05084490637020682),
+          (0.31035245103378440, 0.63650249912139870, 0.08285107561837358))
+PERMUTATIONS = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2), (0, 2, 1), (2, 1, 0))
+ALONG = 4  # Gauss points along a boundary edge
+DEEPEST = 6  # divisions of an element into four
+LONGEST = 2.5  # spacings: how long a part of an element may be
+MOST_SLICES = 5  # halvings of the longest side
+FLATTEST = 1e-5  # area over the square of the longest side, below which an element is refused
+POINTS_AT_ONCE = 200_000
+ORDER = np.arange(3)
+
+
+@cache
+def rule(level, halvings=0):
+    """Barycentric points and weights on parts of an element, twelve on each.
+
+    The element is divided into 4^level equal parts, and each of these from its first
+    corner into 2^halvings slices.
+
+    Examples
+    --------
+    >>> [len(rule(level)[1]) for level in range(3)]
+    [12, 48, 192]
+    """
+    points, weights = _twelve_points()
+    parts = np.einsum("sck,pkd->pscd", _slices(2 ** halvings), _parts(level)).reshape(-1, 3, 3)
+    return np.einsum("qk,pkc->pqc", points, parts).reshape(-1, 3), np.tile(weights, len(parts)) / len(parts)
+
+
+def _slices(n):
+    """Corners of n slices from the first corner, (n, 3, 3), in barycentric coordinates."""
+    at = np.linspace(0, 1, n + 1)
+    side = np.stack([np.zeros(n + 1), 1 - at, at], axis=1)
+    return np.stack([np.tile([1.0, 0.0, 0.0], (n, 1)), side[:-1], side[1:]], axis=1)
+
+
+def _twelve_points():
+    points = {}
+    for p, q, weight in ORBITS:
+        for order in PERMUTATIONS:
+            points[tuple(np.take((p, q, 1 - p - q), order).tolist())] = weight
+    weights = np.array(list(points.values()))
+    return np.array(list(points)), weights / weights.sum()
+
+
+def _parts(level):
+    """Corners of the parts, (4^level, 3, 3), in barycentric coordinates."""
+    n = 2 ** level
+    i, j = (k.ravel() for k in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
+    up = np.stack([i, j, i + 1, j, i, j + 1], axis=1)[i + j < n]
+    down = np.stack([i + 1, j + 1, i, j + 1, i + 1, j], axis=1)[i + j < n - 1]
+    second_third = np.concatenate([up, down]).reshape(-1, 3, 2) / n
+    return np.concatenate([1 - second_third.sum(axis=2, keepdims=True), second_third], axis=2)
+
+
+class Misfit:
+    """The squared error of linear interpolants of one function, and how often it was asked for a value.
+
+    Parameters
+    ----------
+    function : callable
+        Vectorised u(x, y).
+    spacing : float
+        Elements of twice its square or more are divided for quadrature, so that what
+        happens between the nodes of a coarse mesh is seen.
+    sharpest : float
+        Smallest angle of an element that is allowed, in radians.
+    """
+
+    def __init__(self, function, spacing, sharpest=0.0):
+        self.function, self.spacing, self.sharpest = function, spacing, sharpest
+        self.evaluations = 0
+
+    def values(self, x, y):
+        """Values of the function, finite and of the shape of x and y, or a MeshError."""
+        found = np.asarray(self.function(x, y))
+        self.evaluations += found.size
+        if found.shape != x.shape or found.dtype.kind not in "fiu":
+            raise MeshError("shape", f"the function returned shape {found.shape} and dtype {found.dtype} "
+                            f"for points of shape {x.shape}; return one real number for each")
+        if not np.isfinite(found).all():
+            k = np.flatnonzero(~np.isfinite(found).ravel())[0]
+            at = f"({x.ravel()[k]}, {y.ravel()[k]})"
+            raise MeshError("finite", f"the function is {found.ravel()[k]} at {at}; "
+                            "it must be finite in the whole domain")
+        return found
+
+    def on_elements(self, corners, values):
+        """Integral of the squared error over each element; infinity for one that is refused.
+
+        Parameters
+        ----------
+        corners : (m, 3, 2) ndarray of float
+        values : (m, 3) ndarray of float
+
+        Returns
+        -------
+        (m,) ndarray of float64
+        """
+        areas, sides = doubled_areas(corners) / 2, squared_sides(corners)
+        found = np.full(len(corners), np.inf)
+        allowed = self._is_allowed(areas, sides)
+        divided = np.where(allowed, self._divisions(areas, sides), -1)
+        for kind in np.unique(divided[allowed]):
+            points, weights = rule(*divmod(int(kind), MOST_SLICES + 1))
+            rows = np.flatnonzero(divided == kind)
+            for part in np.array_split(rows, -(-len(rows) * len(weights) // POINTS_AT_ONCE)):
+                turn = _from_longest(sides[part])
+                at, nodal = _turned(corners[part], turn), _turned(values[part], turn)
+                found[part] = areas[part] * self._squares(at, nodal, points, weights)
+        return found
+
+    def _squares(self, corners, values, points, weights):
+        x, y = corners[..., 0] @ points.T, corners[..., 1] @ points.T
+        return (self.values(x, y) - values @ points.T) ** 2 @ weights
+
+    def misses(self, corners, values):
+        """Points in each element, (m, q, 2), and how far u_h is from u there, (m, q)."""
+        points, _ = rule(0)
+        x, y = corners[..., 0] @ points.T, corners[..., 1] @ points.T
+        return np.stack([x, y], axis=2), values @ points.T - self.values(x, y)
+
+    def _divisions(self, areas, sides):
+        """Level and halvings for each element in one number."""
+        level = np.ceil(np.log2((2 * np.abs(areas) / self.spacing ** 2).clip(min=1)) / 2).clip(max=DEEPEST)
+        length = np.sqrt(sides.max(axis=1)) / 2 ** level / (LONGEST * self.spacing)
+        halvings = np.ceil(np.log2(length.clip(min=1))).clip(max=MOST_SLICES)
+        return (level * (MOST_SLICES + 1) + halvings).astype(int)
+
+    def _is_allowed(self, areas, sides):
+        allowed = areas > FLATTEST * sides.max(axis=1)
+        if self.sharpest > 0:
+            allowed &= smallest_angles(areas, sides) >= self.sharpest
+        return allowed
+
+    def on_edges(self, ends, values):
+        """Integral of the squared error along each edge; ends (m, 2, 2), values (m, 2)."""
+        at, weights = np.polynomial.legendre.leggauss(ALONG)
+        share = np.stack([1 - at, 1 + at]) / 2
+        x, y = ends[..., 0] @ share, ends[..., 1] @ share
+        squares = (self.values(x, y) - values @ share) ** 2 @ (weights / 2)
+        return squares * np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+
+
+def doubled_areas(corners):
+    """Twice the signed area of each element."""
+    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+
+
+def squared_sides(corners):
+    """Squared length of the side opposite each corner, (m, 3)."""
+    return ((corners[:, [1, 2, 0]] - corners[:, [2, 0, 1]]) ** 2).sum(axis=2)
+
+
+def smallest_angles(areas, sides):
+    """The angle opposite the shortest side, from the squared sides."""
+    return np.arctan2(4 * areas, sides.sum(axis=1) - 2 * sides.min(axis=1))
+
+
+def _from_longest(sides):
+    """The order of the corners that begins opposite the longest side."""
+    return (sides.argmax(axis=1)[:, None] + ORDER) % 3
+
+
+def _turned(array, turn):
+    return np.take_along_axis(array, turn[..., None] if array.ndim == 3 else turn, axis=1)

@@ -1,0 +1,219 @@
+"""Meshes made for a known function: what must hold after every step, and how near the limit they come."""
+import signal
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems
+from meshlib.approximation import strategy
+from meshlib.approximation.choice import independent
+from meshlib.approximation.draft import Draft
+from meshlib.approximation.misfit import Misfit, rule
+from meshlib.approximation.moves import move
+from meshlib.approximation.sides import CORNER, INTERIOR, sides_of
+from meshlib.approximation.swaps import swap
+from meshlib.quality import angles
+from support import lattice
+
+FRANKE = problems.functions["franke"]
+
+
+def front(x, y):
+    return np.tanh(15 * (np.hypot(x + 0.1, y) - 0.7))
+
+
+@pytest.fixture
+def ring():
+    """Eight squares around a square hole."""
+    mesh = delaunay(lattice(3, 3))
+    middle = mesh.nodes[mesh.elements].mean(axis=1)
+    return Mesh(mesh.nodes, mesh.elements[(np.abs(middle - 1.5) > 0.5).any(axis=1)]).validate()
+
+
+def scattered(rng, n):
+    """A square of four nodes along each side, with n nodes inside."""
+    return np.concatenate([lattice(3, 3), 0.1 + 2.8 * rng.random((n, 2))]) / 3
+
+
+def draft_of(function, mesh):
+    return Draft(Misfit(function, 1 / 40), mesh)
+
+
+def objective(draft):
+    return draft.errors.sum() + draft.edge_errors().sum()
+
+
+# -- what must hold --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("domain", ["square", "ring"])
+def test_every_step_leaves_a_valid_mesh_that_interpolates(domain, ring, rng):
+    mesh = ring if domain == "ring" else delaunay(scattered(rng, 20))
+    draft, seen = draft_of(front, mesh), []
+
+    def note(step):
+        draft.mesh.validate()
+        assert draft.mesh.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
+        assert np.array_equal(draft.values, front(*draft.nodes.T))
+        assert draft.error == pytest.approx(
+            Interpolant(draft.mesh, draft.values).l2_error(front, "exact", degree=12), rel=5e-3)
+        seen.append(step)
+    strategy.strategy(draft, 150, note)
+    assert draft.n_nodes == 150
+    assert set(seen) == {"grown", "moved", "renewed"}
+
+
+def test_moves_and_swaps_never_raise_the_error(rng):
+    draft = draft_of(front, delaunay(scattered(rng, 80)))
+    before = objective(draft)
+    for change in (swap, move, swap, move, swap):
+        assert change(draft) > 0
+        assert objective(draft) < before
+        before = objective(draft)
+    assert swap(draft) == 0
+
+
+def test_corners_stay_and_holes_stay_open(ring):
+    found = approximate(front, 120, domain=ring)
+    corners = ring.nodes[sides_of(ring).of_node == CORNER]
+    assert len(corners) == 8
+    assert (np.abs(found.mesh.nodes[:, None] - corners).sum(axis=2).min(axis=0) == 0).all()
+    assert found.mesh.domain_area == pytest.approx(8)
+    n, e, t = found.mesh.counts
+    assert n - e + t == 0  # Euler: one hole
+
+
+def test_the_same_seed_gives_the_same_mesh_and_another_another():
+    one, again, other = (approximate(front, 50, seed=seed) for seed in (0, 0, 1))
+    assert one.mesh.equals(again.mesh) and np.array_equal(one.history, again.history)
+    assert not one.mesh.equals(other.mesh)
+
+
+def test_a_plane_costs_nothing():
+    found = approximate(lambda x, y: 3 * x - 2 * y + 1, 30)
+    assert found.error < 1e-14 and found.mesh.validate().n_nodes == 30
+
+
+def test_few_nodes():
+    assert approximate(front, 4).mesh.counts == (4, 5, 2)
+    assert approximate(front, 3, domain=delaunay([[0, 0], [1, 0], [0, 1]])).mesh.counts == (3, 3, 1)
+    assert approximate(front, 5).mesh.n_nodes == 5
+
+
+def test_a_start_mesh_with_too_many_nodes_loses_some(rng):
+    start = delaunay(scattered(rng, 60))
+    assert approximate(front, 40, domain=start).mesh.validate().n_nodes == 40
+
+
+@pytest.mark.parametrize("angle", [10, 20, 30])
+def test_no_angle_below_the_limit(angle):
+    found = approximate(front, 120, min_angle=angle)
+    assert np.degrees(angles(found.mesh.corners).min()) >= angle - 1e-9
+
+
+def test_the_history_tells_every_step():
+    found = approximate(front, 100)
+    last = found.history[-1]
+    assert (last["nodes"], last["elements"], last["error"]) == (100, found.mesh.n_elements, found.error)
+    assert last["evaluations"] == found.evaluations
+    assert (np.diff(found.history["evaluations"]) > 0).all()
+    assert np.allclose(found.interpolant(*found.mesh.nodes.T), front(*found.mesh.nodes.T), rtol=1e-12, atol=1e-12)
+
+
+# -- how good it is -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("function, limit, most", [
+    (FRANKE, 0.97625, 1.05), (lambda x, y: x ** 2 + y ** 2, 0.59628, 1.15), (lambda x, y: x ** 2 - y ** 2, 0.21082, 1.2)])
+def test_the_error_is_near_the_limit(function, limit, most):
+    """Error times elements over B: 1 is what no mesh of very many elements is much below."""
+    found = approximate(function, 300)
+    error = found.interpolant.l2_error(function, "exact", degree=12)
+    assert 0.85 < error * found.mesh.n_elements / limit < most
+
+
+def test_a_ridge_along_a_diagonal_gets_strips():
+    """SR2 depends on x + y alone: parallel strips give .4347 over the square of their number."""
+    u = problems.functions["SR2"]
+    assert approximate(u, 200).error < 1.25 * 0.4347 / 99 ** 2
+
+
+# -- parts ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("level, halvings", [(0, 0), (1, 0), (0, 2), (2, 1)])
+def test_the_rule_is_exact_to_degree_six(level, halvings):
+    """The integral of p^i q^j r^k over an element of area 1 is 2 i! j! k! / (i + j + k + 2)!."""
+    points, weights = rule(level, halvings)
+    assert len(weights) == 12 * 4 ** level * 2 ** halvings and (weights > 0).all()
+    assert weights.sum() == pytest.approx(1) and np.allclose(points.sum(axis=1), 1)
+    factorial = np.cumprod([1, *range(1, 9)])
+    for i, j in ((6, 0), (3, 3), (2, 3), (1, 5), (0, 4)):
+        k = 6 - i - j
+        exact = 2 * factorial[i] * factorial[j] * factorial[k] / factorial[8]
+        assert weights @ (points[:, 0] ** i * points[:, 1] ** j * points[:, 2] ** k) == pytest.approx(exact)
+
+
+def test_features_between_the_nodes_are_seen():
+    """A bump of a fiftieth of the square is not missed by two elements."""
+    def bump(x, y):
+        return np.exp(-((x - 0.61) ** 2 + (y - 0.37) ** 2) / 0.02 ** 2)
+    error = Misfit(bump, 1 / 40).on_elements(np.array([[[0., 0], [1, 0], [1, 1]]]), np.zeros((1, 3)))
+    assert error[0] == pytest.approx(np.pi * 0.02 ** 2 / 2, rel=0.01)
+
+
+@given(st.lists(st.tuples(st.floats(-1, 1), st.lists(st.integers(-1, 5), min_size=1, max_size=3)), max_size=12))
+def test_chosen_changes_share_nothing_and_the_best_is_among_them(candidates):
+    gain = np.array([g for g, _ in candidates])
+    rows = np.repeat(np.arange(len(candidates)), [len(i) for _, i in candidates])
+    items = np.array([i for _, some in candidates for i in some], dtype=int)
+    chosen = independent(gain, rows, items, 6)
+    touched = [i for c in chosen for i in set(candidates[c][1]) - {-1}]
+    assert len(touched) == len(set(touched))
+    assert not len(candidates) or gain.argmax() in chosen
+    assert list(gain[chosen]) == sorted(gain[chosen], reverse=True)
+
+
+def test_sides_of_a_domain_with_a_hole(ring):
+    sides = sides_of(ring)
+    assert len(sides.ends) == 8
+    for pair in ([1, 2], [4, 8], [7, 11], [13, 14]):  # the two inner nodes of each outer side, in the lattice
+        assert len({*sides.of_node[pair]}) == 1 and sides.of_node[pair[0]] >= 0
+    assert (sides.of_node[[0, 3, 12, 15, 5, 6, 9, 10]] == CORNER).all()
+    assert (sides_of(delaunay(lattice(2, 2))).of_node == INTERIOR).sum() == 1
+
+
+# -- bad input, interrupts -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ({"nodes": 2}, "range: nodes is 2; give a whole number from 3"),
+    ({"nodes": 3}, "nodes: 3 nodes are too few for this domain, 4 are left; give more"),
+    ({"domain": ((0, 0), (0, 1))}, "domain: the rectangle from [0.0, 0.0] to [0.0, 1.0] has no area or is too long; "
+                                   "give the lower left and the upper right corner"),
+    ({"domain": "square"}, "domain: the domain is 'square'; give the lower left and the upper right corner "
+                           "of a rectangle, or a mesh"),
+    ({"min_angle": 40}, "range: min_angle is 40; give degrees from 0 to 30"),
+    ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
+    ({"function": lambda x, y: x[:1]}, "shape: the function returned shape"),
+    ({"function": lambda x, y: x + 1j}, "dtype complex128 for points"),
+    ({"function": lambda x, y: np.where(x > 0.9, np.nan, x)}, "it must be finite in the whole domain"),
+])
+def test_bad_input_is_named(arguments, message):
+    with pytest.raises(MeshError) as error:
+        approximate(**({"function": front, "nodes": 20} | arguments))
+    assert message in str(error.value)
+
+
+def test_an_interrupt_keeps_the_mesh(monkeypatch):
+    def report(watch, done):
+        if done == 3:
+            signal.raise_signal(signal.SIGINT)
+    monkeypatch.setattr("meshlib.watching.Watch.report", report)
+    with pytest.raises(Interrupted) as stop:
+        approximate(front, 100)
+    found = stop.value.result
+    assert len(found.history) == 3 and found.mesh.validate().n_nodes >= 16
+    assert np.array_equal(found.values, front(*found.mesh.nodes.T))
