@@ -11,7 +11,7 @@ A row of the grid cuts an element in the points between two of its sides::
 
 A point on a side is set by both neighbours, to the same value but for rounding.
 """
-from math import ceil, floor, inf
+from math import floor, inf
 
 from .backend import compiled
 from .shapes import INSIDE, is_flat, plane
@@ -20,27 +20,33 @@ SLACK = 1e-12  # of a cell, by which the rounding of a crossing may miss a point
 
 
 @compiled
-def points_between(low, high, slack, count):
+def points_between(low, high, count):
     """First and last of the points 0, 1, ..., count - 1 from low to high."""
-    return max(0, ceil(low - slack)), min(count - 1, floor(high + slack))
+    first = int(low)  # rounded towards 0; faster than to round upwards
+    return max(0, first + (first < low)), min(count - 1, floor(high))
 
 
 @compiled
-def side(run, rise, room):
-    """Slope of a side, and what it adds to the bounds: it is a right one if it rises, a left one if not.
+def side(x, run, rise, room, slack):
+    """Slope of a side, and the lower and the upper bound that it sets at its start, x.
 
-    A level side bounds nothing: no row beyond it is asked.
+    A side that rises is a right one and has no lower bound; one that falls has no upper
+    bound; a level one has neither, for no row beyond it is asked.
     """
     height = rise if abs(rise) > SLACK else inf
-    shift = room / height
-    return run / height, shift if rise < -SLACK else -inf, shift if rise > SLACK else inf
+    start = x + room / height
+    return run / height, start - slack if rise < -SLACK else -inf, start + slack if rise > SLACK else inf
 
 
 @compiled
 def painted(grid, first, last, value, slope, empty):
     """Set the points first..last of the flat grid; only those without a value if ``empty``."""
-    for k in range(first, last + 1):
-        if not (empty and grid[k] == grid[k]):
+    if empty:
+        for k in range(first, last + 1):
+            if grid[k] != grid[k]:
+                grid[k] = value + slope * (k - first)
+    else:
+        for k in range(first, last + 1):
             grid[k] = value + slope * (k - first)
 
 
@@ -55,9 +61,9 @@ def filled(grid, nx, ny, low_x, low_y, dx, dy, slack, unit, element, node, u):
         ax, ay = (node[2 * a] - low_x) * dx, (node[2 * a + 1] - low_y) * dy
         ux, uy = (node[2 * b] - node[2 * a]) * dx, (node[2 * b + 1] - node[2 * a + 1]) * dy
         vx, vy = (node[2 * c] - node[2 * a]) * dx, (node[2 * c + 1] - node[2 * a + 1]) * dy
-        left, right = ax + min(0.0, ux, vx), ax + max(0.0, ux, vx)
-        row, top = points_between(ay + min(0.0, uy, vy), ay + max(0.0, uy, vy), slack, ny)
-        i, end = points_between(left, right, slack, nx)
+        left, right = ax + min(0.0, ux, vx) - slack, ax + max(0.0, ux, vx) + slack
+        row, top = points_between(ay + min(0.0, uy, vy) - slack, ay + max(0.0, uy, vy) + slack, ny)
+        i, end = points_between(left, right, nx)
         if row > top or i > end:
             continue
         det = ux * vy - uy * vx
@@ -66,13 +72,13 @@ def filled(grid, nx, ny, low_x, low_y, dx, dy, slack, unit, element, node, u):
         empty = is_flat(node, a, b, c, unit)
         gx, gy = plane(ux, uy, vx, vy, u[b] - u[a], u[c] - u[a])
         room = INSIDE * det
-        s1, l1, h1 = side(ux, uy, room)
-        s2, l2, h2 = side(vx - ux, vy - uy, room)
-        s3, l3, h3 = side(-vx, -vy, room)
+        s1, l1, h1 = side(ax, ux, uy, room, slack)
+        s2, l2, h2 = side(ax + ux, vx - ux, vy - uy, room, slack)
+        s3, l3, h3 = side(ax, -vx, -vy, room, slack)
         for j in range(row, top + 1):
-            py = j - ay
-            qy = py - uy
-            lo = max(left, ax + s1 * py + l1, ax + ux + s2 * qy + l2, ax + s3 * py + l3)
-            hi = min(right, ax + s1 * py + h1, ax + ux + s2 * qy + h2, ax + s3 * py + h3)
-            i, end = points_between(lo, hi, slack, nx)
-            painted(grid, j * nx + i, j * nx + end, u[a] + gy * py + gx * (i - ax), gx, empty)
+            p = j - ay
+            first, second, third = s1 * p, s2 * (p - uy), s3 * p
+            low = max(max(left, first + l1), max(second + l2, third + l3))
+            high = min(min(right, first + h1), min(second + h2, third + h3))
+            i, end = points_between(low, high, nx)
+            painted(grid, j * nx + i, j * nx + end, u[a] + gy * p + gx * (i - ax), gx, empty)
