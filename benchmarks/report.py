@@ -85,9 +85,9 @@ def _starts():
 
 def _row(text, nodes, sign, goal, value):
     if value is None:
-        return text, _count(nodes), f"{_sign(sign)} {goal:g}", "not measured", ""
+        return text, _count(nodes), f"{_sign(sign)}&nbsp;{goal:g}", "not measured", ""
     met = value <= goal if sign == "<=" else value >= goal
-    return text, _count(nodes), f"{_sign(sign)} {goal:g}", f"{value:.3g}", "met" if met else "missed"
+    return text, _count(nodes), f"{_sign(sign)}&nbsp;{goal:g}", f"{value:.3g}", "met" if met else "missed"
 
 
 def _sign(sign):

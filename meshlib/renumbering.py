@@ -31,9 +31,8 @@ class Renumbered:
 
     def restored(self, elements):
         """Elements in the numbering and the rows of the mesh given."""
-        found = np.empty_like(elements)
-        found[self.elements] = np.take(self.nodes.astype(elements.dtype), elements)
-        return found
+        from .kernels import setup
+        return _renamed(setup.scattered, elements, self.elements, self.nodes)
 
 
 def along_curve(mesh):
@@ -50,13 +49,22 @@ def along_curve(mesh):
     >>> bool((found.restored(found.mesh.elements) == start.elements).all())
     True
     """
+    from .kernels import setup
     place = _places(mesh)
     nodes = np.argsort(place, kind="stable")
     elements = np.argsort(place[mesh.elements[:, 0]], kind="stable")
     number = np.empty(mesh.n_nodes, dtype=np.int32)
     number[nodes] = np.arange(mesh.n_nodes, dtype=np.int32)
-    rows = np.take(number, np.take(mesh.elements, elements, axis=0))
+    rows = _renamed(setup.gathered, mesh.elements, elements, number)
     return Renumbered(Mesh._trusted(np.take(mesh.nodes, nodes, axis=0), rows), nodes, elements)
+
+
+def _renamed(kernel, elements, row, number):
+    """Elements in other rows, with other numbers for their nodes."""
+    from .kernels.backend import readable, writable
+    found = writable(np.empty(elements.size, dtype=np.int32))
+    kernel(*map(readable, (elements, row, number)), found)
+    return np.asarray(found, dtype=np.int32).reshape(-1, 3)
 
 
 def _places(mesh):

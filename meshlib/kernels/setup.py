@@ -70,3 +70,21 @@ def faces(element, point, face):
         bx, by, cx, cy = sides(point, corners)
         area = bx * cy - cx * by
         set_face(face, t, plane(point, corners, area if area != 0 else float("nan")), area)
+
+
+@compiled
+def gathered(element, row, number, found):
+    """Set element t to the one in row[t], with node n renamed to number[n]."""
+    for t in range(len(row)):
+        at = 3 * row[t]
+        for k in range(3):
+            found[3 * t + k] = number[element[at + k]]
+
+
+@compiled
+def scattered(element, row, number, found):
+    """Set the element in row[t] to element t, with node n renamed to number[n]."""
+    for t in range(len(row)):
+        at = 3 * row[t]
+        for k in range(3):
+            found[at + k] = number[element[3 * t + k]]
