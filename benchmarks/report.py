@@ -4,11 +4,11 @@ from functools import cache
 from pathlib import Path
 from statistics import median
 
+from cases import KINDS
 from meshlib import plotting
 from meshlib.thesis.tables import grid, markdown
 
 RESULTS = Path(__file__).with_name("results.json")
-KINDS = ("random", "clustered", "gridded")
 MILLION = 1_000_000
 MARKERS, COLOURS = "osv^D", [plotting.PALETTE[c] for c in ("blue", "green", "sky", "orange", "black")]
 PANEL = 3.1  # inches
@@ -26,6 +26,7 @@ GOALS = (
 GROWTH = (("swapping", "JND-L2"), ("refinement", "red-green"), ("grid", "on_grid"),
           ("scattered", "Interpolant"), ("quality", "three measures"))
 MOST_GROWTH = 13
+SIGNS = {"<=": "≤", ">=": "≥"}
 STARTS = {"import meshlib": 0.25, "first swapping, 81 nodes": 0.2, "without numba, 33 nodes": 0.006,
           "without numba, 81 nodes": 0.006}
 
@@ -84,14 +85,11 @@ def _starts():
 
 
 def _row(text, nodes, sign, goal, value):
+    about = text, _count(nodes), f"{SIGNS[sign]}&nbsp;{goal:g}"
     if value is None:
-        return text, _count(nodes), f"{_sign(sign)}&nbsp;{goal:g}", "not measured", ""
+        return *about, "not measured", ""
     met = value <= goal if sign == "<=" else value >= goal
-    return text, _count(nodes), f"{_sign(sign)}&nbsp;{goal:g}", f"{value:.3g}", "met" if met else "missed"
-
-
-def _sign(sign):
-    return {"<=": "≤", ">=": "≥"}[sign]
+    return *about, f"{value:.3g}", "met" if met else "missed"
 
 
 def _count(nodes):

@@ -1,5 +1,4 @@
 """Times that only a new process shows: import, first use, and runs without a compiler."""
-import json
 import subprocess
 import sys
 
@@ -32,7 +31,6 @@ print((time.perf_counter() - start) / 20)
 FLOOR = """
 import time; start = time.perf_counter()
 import numba
-import numpy as np
 from meshlib.kernels.backend import compiled
 from meshlib.kernels.lop import after
 after(1)
@@ -52,7 +50,3 @@ def measured(runs):
 
 def _output(script):
     return subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True).stdout
-
-
-if __name__ == "__main__":
-    print(json.dumps(measured(int(sys.argv[1]))))

@@ -7,11 +7,11 @@ from functools import reduce
 
 import numpy as np
 
+from . import curve
+
 FAN = 4
 TOP = 8  # boxes at most that get no bounding boxes
 BITS = 31  # of each coordinate along the curve
-SPREAD = ((16, 0x0000FFFF0000FFFF), (8, 0x00FF00FF00FF00FF), (4, 0x0F0F0F0F0F0F0F0F),
-          (2, 0x3333333333333333), (1, 0x5555555555555555))
 FEW_ROWS, MANY_ROWS = 64, 65_536  # taken together: few at first, since the first find often ends the search
 PAIRS_AT_ONCE = 2_000_000
 
@@ -78,18 +78,10 @@ def _touching(rows, boxes, low, high, box_low, box_high):
 
 
 def _along_curve(points):
-    """Places along Morton's curve, whose bits are those of x and y in turn."""
+    """Places along Morton's curve."""
     low, size = points.min(axis=0), np.ptp(points, axis=0)
     cells = (points - low) / np.where(size > 0, size, 1) * (2 ** BITS - 1)
-    x, y = cells.astype(np.uint64).T
-    return _spread(x) | _spread(y) << np.uint64(1)
-
-
-def _spread(numbers):
-    """Numbers with a zero before every bit."""
-    for shift, mask in SPREAD:
-        numbers = (numbers | numbers << np.uint64(shift)) & np.uint64(mask)
-    return numbers
+    return curve.places(*cells.astype(np.int64).T, n_bytes=4)
 
 
 def bounds(*points):

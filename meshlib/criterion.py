@@ -82,8 +82,7 @@ class Criterion:
     def scale(self, mesh, values):
         """Size of a typical cost, for the absolute part of a tolerance."""
         low, high = mesh.box
-        extent = (high - low).max()
-        return float(self.unit(extent, np.ptp(values)))
+        return float(self.unit((high - low).max(), np.ptp(values)))
 
 
 # -- evaluation over a mesh ---------------------------------------------------------

@@ -3,6 +3,7 @@ import numpy as np
 
 from . import checks
 from .errors import MeshError
+from .choice import independent
 from .mesh import Mesh
 from .predicates import incircle, nearly_flat, orientation
 from .topology import canonical, quadrilaterals
@@ -165,8 +166,6 @@ def _is_worse(nodes, a, b, c, d):
 
 def _independent(quads, pairs, n_elements):
     """Quadrilaterals that share no element: each is the first at both its elements."""
-    rank = np.arange(len(pairs))
-    first = np.full(n_elements, len(pairs))
-    np.minimum.at(first, pairs, rank[:, None])
-    free = (first[pairs] == rank[:, None]).all(axis=1)
+    alike = np.zeros(len(pairs))
+    free = independent(alike, np.repeat(np.arange(len(pairs)), 2), pairs.ravel(), n_elements)
     return quads[free], pairs[free]

@@ -73,4 +73,3 @@ def _flipped(elements, turns):
         if a < b and d is not None and turns[c, a, d] > 0 and turns[d, b, c] > 0:
             old = {from_smallest(c, a, b), from_smallest(d, b, a)}
             yield elements - old | {from_smallest(c, a, d), from_smallest(d, b, c)}
-

@@ -6,7 +6,7 @@ import numpy as np
 from . import checks
 from .errors import MeshError
 from .mesh import Mesh
-from .topology import HEADS, TAILS, grouped
+from .topology import HEADS, TAILS, around_nodes, grouped
 from .validation import halved
 
 MOST_SWEEPS = 1000
@@ -80,7 +80,8 @@ def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=ST
     mesh = checks.a_mesh(mesh)
     springs = _spring_constants(mesh, springs)
     area = _limit(min_area, "min_area")
-    still = _limit(tolerance, "tolerance") * np.ptp(mesh.nodes, axis=0).max()
+    low, high = mesh.box
+    still = _limit(tolerance, "tolerance") * (high - low).max()
     sweeps = checks.whole(sweeps, 1, "sweeps")
     from .kernels import springs as kernel
     from .kernels.backend import flat
@@ -121,8 +122,8 @@ def _patches(mesh, springs):
     two other nodes of each element, counter-clockwise after the centre.
     """
     n, centres = mesh.n_nodes, np.flatnonzero(~mesh.boundary_nodes)
-    by_tail, edge_starts = grouped(mesh.edges.T.ravel(), n)
+    head, by_tail, edge_starts = around_nodes(mesh.edges, n)
     by_corner, element_starts = grouped(mesh.elements.ravel(), n)
-    head, springs = mesh.edges.T[::-1].ravel().take(by_tail), np.tile(springs, 2).take(by_tail)
+    springs = np.tile(springs, 2).take(by_tail)
     second, third = (mesh.elements[:, turn].ravel().take(by_corner) for turn in (TAILS, HEADS))
     return centres, edge_starts, head, springs, element_starts, second, third

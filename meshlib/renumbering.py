@@ -4,12 +4,12 @@ from functools import cached_property
 
 import numpy as np
 
+from . import curve
 from .errors import MeshError, not_a_cost
 from .mesh import Mesh
 from .procedure import Procedure
 
 SIDE = 256  # cells along each axis, whose 16 bits are sorted in linear time
-SPREAD = np.array([int(f"{i:b}", 4) for i in range(SIDE)], dtype=np.uint16)  # a 0 before every bit
 
 
 @dataclass(frozen=True)
@@ -38,9 +38,6 @@ class Renumbered:
 def along_curve(mesh):
     """Renumber a mesh along Morton's curve through its bounding box.
 
-    The curve goes through the quarters of a square one after the other, and through the
-    quarters of each likewise.
-
     Examples
     --------
     >>> from meshlib import problems
@@ -68,10 +65,10 @@ def _renamed(kernel, elements, row, number):
 
 
 def _places(mesh):
-    """The cell of each node, counted along the curve: the bits of column and row in turn."""
+    """The cell of each node, counted along the curve."""
     column, row = (((v - low) * (SIDE / (high - low))).astype(np.int16).clip(max=SIDE - 1)
                    for v, low, high in zip(mesh.nodes.T, *mesh.box, strict=True))
-    return SPREAD[column] | SPREAD[row] << 1
+    return curve.places(column, row).astype(np.uint16)
 
 
 @dataclass(frozen=True)

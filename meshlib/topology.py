@@ -99,6 +99,15 @@ def grouped(numbers, n):
     return column.data, column.indptr
 
 
+def around_nodes(edges, n_nodes):
+    """Nodes joined to each node, node after node, rows of their edges, and where those of each start.
+
+    Edge e seen from its second node is row E + e.
+    """
+    rows, starts = grouped(edges.T.ravel(), n_nodes)
+    return edges.T[::-1].ravel().take(rows), rows, starts
+
+
 def unique(numbers):
     """The different numbers in ascending order; NumPy's own way is through a slower hash table."""
     ascending = np.sort(numbers, axis=None)

@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 
 from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems
 from meshlib.approximation import strategy
-from meshlib.approximation.choice import independent
 from meshlib.approximation.draft import Draft
 from meshlib.approximation.misfit import Misfit, rule
 from meshlib.approximation.moves import move
 from meshlib.approximation.sides import CORNER, INTERIOR, sides_of
 from meshlib.approximation.swaps import swap
+from meshlib.choice import independent
 from meshlib.quality import angles
 from support import lattice
 

@@ -2,7 +2,7 @@
 import numpy as np
 
 from ..mesh import Mesh
-from ..topology import grouped
+from ..topology import around_nodes, grouped
 from .sides import sides_of
 
 BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
@@ -74,10 +74,9 @@ class Draft:
         return Rows(*grouped(self.elements.ravel(), self.n_nodes))
 
     def neighbours(self):
-        """The nodes joined to each node: rows of `heads` of the half-edges in both directions."""
-        edges = self.mesh.edges
-        rows, starts = grouped(np.concatenate([edges[:, 0], edges[:, 1]]), self.n_nodes)
-        return Rows(np.concatenate([edges[:, 1], edges[:, 0]])[rows], starts)
+        """The nodes joined to each node."""
+        heads, _, starts = around_nodes(self.mesh.edges, self.n_nodes)
+        return Rows(heads, starts)
 
 
 class Rows:

@@ -13,14 +13,14 @@ them::
 """
 import numpy as np
 
-from .choice import independent
+from ..choice import independent
+from ..topology import TAILS
 from .sides import INTERIOR
 
 WORST = 0.3  # of the largest error, from which on an element gets a node at once
 LEAST = 1e-9  # of the same, at which nothing is left that could be split
 CANDIDATES = 2  # elements looked at for each node to be inserted
 KINDS = 5  # middles of the three edges, centroid, point of largest error
-NEXT, LAST = [1, 2, 0], [2, 0, 1]
 
 
 def insert(draft, count, share=WORST):
@@ -90,7 +90,7 @@ class _Stars:
         """A point inside."""
         nodes = draft.elements[worst]
         rim = np.full((len(worst), 4, 2), -1)
-        rim[:, :3] = np.stack([nodes, nodes[:, NEXT]], axis=2)
+        rim[:, :3] = np.stack([nodes, nodes[:, TAILS]], axis=2)
         none = np.full(len(worst), -1)
         return points, np.stack([worst, none], 1), rim, np.stack([none, none], 1)
 

@@ -4,6 +4,8 @@ from functools import cache
 import numpy as np
 
 from ..errors import MeshError
+from ..quality import angles
+from ..topology import HEADS, TAILS
 
 # Dunavant 1985, degree 6: twelve points, the same from each corner.
 ORBITS = ((0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
@@ -108,7 +110,7 @@ class Misfit:
         """
         areas, sides = doubled_areas(corners) / 2, squared_sides(corners)
         found = np.full(len(corners), np.inf)
-        allowed = self._is_allowed(areas, sides)
+        allowed = self._is_allowed(corners, areas, sides)
         divided = np.where(allowed, self._divisions(areas, sides), -1)
         for kind in np.unique(divided[allowed]):
             points, weights = rule(*divmod(int(kind), MOST_SLICES + 1))
@@ -136,10 +138,10 @@ class Misfit:
         halvings = np.ceil(np.log2(length.clip(min=1))).clip(max=MOST_SLICES)
         return (level * (MOST_SLICES + 1) + halvings).astype(int)
 
-    def _is_allowed(self, areas, sides):
+    def _is_allowed(self, corners, areas, sides):
         allowed = areas > FLATTEST * sides.max(axis=1)
         if self.sharpest > 0:
-            allowed &= smallest_angles(areas, sides) >= self.sharpest
+            allowed &= angles(corners).min(axis=1) >= self.sharpest
         return allowed
 
     def on_edges(self, ends, values):
@@ -159,12 +161,7 @@ def doubled_areas(corners):
 
 def squared_sides(corners):
     """Squared length of the side opposite each corner, (m, 3)."""
-    return ((corners[:, [1, 2, 0]] - corners[:, [2, 0, 1]]) ** 2).sum(axis=2)
-
-
-def smallest_angles(areas, sides):
-    """The angle opposite the shortest side, from the squared sides."""
-    return np.arctan2(4 * areas, sides.sum(axis=1) - 2 * sides.min(axis=1))
+    return ((corners[:, TAILS] - corners[:, HEADS]) ** 2).sum(axis=2)
 
 
 def _from_longest(sides):

@@ -1,8 +1,8 @@
 """Swaps that lower the error, many at a time."""
 import numpy as np
 
+from ..choice import independent
 from ..topology import quadrilaterals
-from .choice import independent
 
 GAIN = 1e-9  # of the error of two elements, below which they stay
 

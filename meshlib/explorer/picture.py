@@ -77,7 +77,7 @@ def _draw_mesh(ax, u_h, limits):
 def _draw_error(ax, state):
     mesh, error = state.adapted.mesh, np.abs(state.adapted.error)
     framed(ax, mesh)
-    x, y = np.linspace(mesh.nodes.min(axis=0), mesh.nodes.max(axis=0), len(error)).T
+    x, y = np.linspace(*mesh.box, len(error)).T
     image = ax.pcolormesh(x, y, error, cmap=ERRORS, vmin=0, vmax=state.worst, shading="gouraud")
     ax.figure.colorbar(image, ax=ax, fraction=0.046, pad=0.04)
 

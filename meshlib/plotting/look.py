@@ -91,7 +91,7 @@ def panels(count=1, size=None, labels=False, rows=1):
 
 def bare(ax, mesh):
     """Equal scales along x and y around a mesh, and no frame; returns the axes."""
-    low, high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
+    low, high = mesh.box
     margin = MARGIN * (high - low).max()
     ax.set(aspect="equal", xlim=(low[0] - margin, high[0] + margin),
            ylim=(low[1] - margin, high[1] + margin))

@@ -61,7 +61,7 @@ def plot_surface(ax, surface, limits=None, view=None):
 
 
 def _box(ax, mesh, limits, view):
-    low, high = mesh.nodes.min(axis=0), mesh.nodes.max(axis=0)
+    low, high = mesh.box
     for axis, name, *ends in zip((ax.xaxis, ax.yaxis), "xy", low, high, strict=True):
         axis.set_ticks(ends, [f"{end:.3g}" for end in ends])
         axis.set_label_text(name)
