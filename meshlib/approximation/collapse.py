@@ -4,8 +4,8 @@ import numpy as np
 from ..choice import independent
 from .sides import CORNER, INTERIOR
 
-LOOKED_AT = 2  # nodes for each that is to be taken out
-TOWARDS = 2  # neighbours for each of these
+LOOKED_AT = 3  # nodes for each that is to be taken out
+TOWARDS = 3  # neighbours for each of these
 NEAR = 0.1  # of a boundary edge: the height at which a node over it may be put on it
 BETWEEN = 0.05  # of the same: how far from its ends
 
@@ -22,7 +22,7 @@ def collapse(draft, share):
           *---*              *---*
     """
     pairs, number = _Pairs(draft), int(share * draft.n_nodes)
-    pairs._likely(draft, LOOKED_AT * number)
+    pairs.keep_likely(draft, LOOKED_AT * number)
     cost, into = pairs.cheapest(draft)
     nodes = np.argsort(cost, kind="stable")[:number]
     nodes = nodes[np.isfinite(cost[nodes])]
@@ -46,7 +46,7 @@ class _Pairs:
         ends = np.sort(np.stack([self.i, self.j], axis=1), axis=1)
         return draft.mesh.boundary[draft.mesh.edge_numbers(ends)]
 
-    def _likely(self, draft, number):
+    def keep_likely(self, draft, number):
         """Of each node two neighbours towards which the function bends least, and this for so many nodes."""
         bend = np.abs(draft.bends_of(np.stack([self.i, self.j], axis=1)))
         order = np.lexsort((np.arange(len(bend)), bend, self.i))

@@ -3,12 +3,11 @@ import numpy as np
 
 from ..kernels import colours
 from ..kernels.backend import flat
-from .collapse import beside
 from .patches import Patches
 from .sides import CORNER
 
 REACH = 0.35  # of the extent of a patch: how far a node may go at once
-SHARES = (1.0, 0.4)  # of the step, tried one after the other
+SHARES = (1.6, 0.7)  # of the step, tried one after the other: beyond the minimum, as others move as well
 WORTHWHILE = 1e-4  # gain foreseen, relative to the error of the patch, from which on a node is moved
 GAIN = 1e-10  # relative; smaller gains are rounding
 CURVED = 1e-3  # smallest curvature of the model, relative to its largest
