@@ -1,16 +1,16 @@
 """Peers of `meshlib.approximate`: MMG's two-dimensional remesher led by a metric, and pydelatin."""
-import warnings
+import sys
+import time
 
 import numpy as np
 
-from meshlib import Interpolant, Mesh, delaunay
+from meshlib import Interpolant, Mesh, approximate, delaunay, problems
 
 PASSES = 10  # of remeshing, each on the mesh of the one before
 STEP = 1e-4  # of differences for second derivatives
 FLOORS = (1e-4, 1e-3, 1e-2, 1e-1)  # of the eigenvalues of the Hessian, relative to their largest
 START = 10  # cells along a side of the first lattice
 RASTER = 1025  # samples along a side for pydelatin
-CLOSE = 0.01  # of the number of nodes, at which a pass is taken
 LONGEST, SHORTEST = 2.0, 1e-6  # of an edge
 
 
@@ -36,18 +36,17 @@ def metrics(function, nodes, floor, scale):
 
 
 def mmg2d(function, n_nodes, floor=FLOORS[1], passes=PASSES):
-    """The mesh of about so many nodes that MMG makes in some passes: the last of those nearest in number."""
+    """The mesh of about so many nodes that MMG makes in some passes."""
     import mmgpy
     lattice = np.stack(np.meshgrid(*2 * [np.linspace(0, 1, START + 1)]), axis=-1).reshape(-1, 2)
-    mesh, scale, found = delaunay(lattice), float(n_nodes), []
+    mesh, scale = delaunay(lattice), float(n_nodes)
     for _ in range(passes):
         work = mmgpy.MmgMesh2D(mesh.nodes, mesh.elements)
         work.set_field("tensor", metrics(function, mesh.nodes, floor, scale))
         work.remesh(hgrad=-1.0, verbose=-1)
         mesh = Mesh(work.get_vertices(), work.get_triangles())
-        found.append(mesh)
         scale *= n_nodes / mesh.n_nodes
-    return found[-1]
+    return mesh
 
 
 def delatin(function, n_nodes):
@@ -59,3 +58,27 @@ def delatin(function, n_nodes):
     nodes = np.asarray(found.vertices, dtype=float)[:, :2] / (RASTER - 1)
     nodes[:, 1] = 1 - nodes[:, 1]
     return Mesh(nodes, np.asarray(found.triangles)[:, ::-1])
+
+
+def _line(name, make, function, *arguments):
+    start = time.perf_counter()
+    mesh = make(function, *arguments)
+    seconds = time.perf_counter() - start
+    error = Interpolant(mesh, function).l2_error(function, "exact", degree=12)
+    print(f"{name:10} {mesh.n_nodes:7} nodes {seconds:7.2f} s   error {error:.4e}   "
+          f"error * elements {error * mesh.n_elements:.4f}", flush=True)
+
+
+def main(n_nodes=1600, *names):
+    """Ours and the peers, one after the other, on functions of the report."""
+    for name in names or ("franke", "SR1", "SR2", "SR3", "DD1"):
+        function = problems.functions[name]
+        print(name)
+        _line("approximate", lambda f, n: approximate(f, n).mesh, function, n_nodes)
+        for floor in FLOORS:
+            _line(f"MMG {floor:g}", mmg2d, function, n_nodes, floor)
+        _line("pydelatin", delatin, function, n_nodes)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 1600, *sys.argv[2:])

@@ -108,16 +108,16 @@ class Misfit:
         -------
         (m,) ndarray of float64
         """
-        return self._integrals(corners, values, _square)[:, 0]
+        return self._integrals(corners, values, 1, _square)[:, 0]
 
     def moments(self, corners, values):
         """The same, and the integrals of u_h - u times the barycentric coordinates, (m, 3)."""
-        found = self._integrals(corners, values, _square_and_moments)
+        found = self._integrals(corners, values, 4, _square_and_moments)
         return found[:, 0], found[:, 1:]
 
-    def _integrals(self, corners, values, integrand):
+    def _integrals(self, corners, values, columns, integrand):
         areas, sides = doubled_areas(corners) / 2, squared_sides(corners)
-        found = np.full((len(corners), integrand.columns), np.inf)
+        found = np.full((len(corners), columns), np.inf)
         allowed = self._is_allowed(corners, areas, sides)
         divided = np.where(allowed, self._divisions(areas, sides), -1)
         for kind in np.unique(divided[allowed]):
@@ -179,9 +179,6 @@ def _square_and_moments(miss, points, weights, turn):
     found[:, 0] = miss ** 2 @ weights
     np.put_along_axis(found[:, 1:], turn, miss @ (points * weights[:, None]), axis=1)
     return found
-
-
-_square.columns, _square_and_moments.columns = 1, 4
 
 
 def doubled_areas(corners):

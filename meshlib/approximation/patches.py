@@ -127,7 +127,7 @@ class Patches:
         here = self.draft.values[self.nodes][self.row]
         up, across = (self.draft.values[self._corner(shift)] - here for shift in (1, 2))
         area = _cross(y, z)
-        return np.stack([up * z[:, 1] - across * y[:, 1], across * y[:, 0] - up * z[:, 0]], axis=1) / area[:, None]
+        return np.stack([up * z[:, 1] - across * y[:, 1], across * y[:, 0] - up * z[:, 0]], 1) / area[:, None]
 
     def _with_sides(self, frames, slope, hessian, force, curvature):
         """Nodes on a side have one direction only, and the error along it counts as well."""
