@@ -11,7 +11,7 @@ from meshlib.approximation import strategy
 from meshlib.approximation.draft import Draft
 from meshlib.approximation.misfit import Misfit, rule
 from meshlib.approximation.moves import move
-from meshlib.approximation.sides import CORNER, INTERIOR, sides_of
+from meshlib.sides import CORNER, INTERIOR, sides_of
 from meshlib.approximation.swaps import swap
 from meshlib.choice import independent
 from meshlib.quality import angles

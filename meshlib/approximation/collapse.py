@@ -2,7 +2,7 @@ r"""Nodes taken out again where they serve least, and nodes put on the boundary 
 import numpy as np
 
 from ..choice import independent
-from .sides import CORNER, INTERIOR
+from ..sides import CORNER, INTERIOR
 
 NEAR = 0.1  # of a boundary edge: the height at which a node over it may be put on it
 BETWEEN = 0.05  # of the same: how far from its ends

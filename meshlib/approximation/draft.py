@@ -3,7 +3,7 @@ import numpy as np
 
 from ..mesh import Mesh
 from ..topology import around_nodes, grouped
-from .sides import sides_of
+from ..sides import sides_of
 
 BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
 

@@ -2,7 +2,7 @@
 import numpy as np
 
 from .collapse import beside
-from .sides import CORNER, INTERIOR
+from ..sides import CORNER, INTERIOR
 
 PROBE = 0.08  # of the extent of a patch, at which differences of its error are taken
 REACH = 0.35  # of the same: how far a node may go at once
