@@ -10,10 +10,11 @@ from .optima import local_optima
 from .optimal import optimal
 from .quality import quality
 from .refinement import refined
+from .springs import DataSprings
 from .swapping import swapped
 
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "criteria", "delaunay",
-           "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped"]
+__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "criteria",
+           "delaunay", "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped"]

@@ -13,10 +13,10 @@ from meshlib.approximation.draft import Draft
 from meshlib.approximation.misfit import Misfit, rule
 from meshlib.approximation.moves import _Sweep, move
 from meshlib.approximation.patches import _curvature
-from meshlib.approximation.sides import CORNER, INTERIOR, sides_of
 from meshlib.approximation.swaps import swap
 from meshlib.choice import independent
 from meshlib.quality import angles
+from meshlib.sides import CORNER, INTERIOR, sides_of
 from support import lattice
 
 FRANKE = problems.functions["franke"]

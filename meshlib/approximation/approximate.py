@@ -8,13 +8,13 @@ from ..delaunay import delaunay
 from ..errors import Interrupted, MeshError
 from ..interpolant import Interpolant
 from ..mesh import Mesh
+from ..sides import sides_of
 from ..watching import Watch
 from .collapse import collapse
 from .draft import Draft
 from .misfit import Misfit
 from .samples import Samples
 from .sizes import least
-from .sides import sides_of
 from .strategy import steps, strategy
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))

@@ -2,7 +2,7 @@ r"""Nodes taken out again where they serve least, and nodes put on the boundary 
 import numpy as np
 
 from ..choice import independent
-from .sides import CORNER, INTERIOR
+from ..sides import CORNER, INTERIOR
 
 LOOKED_AT = 3  # nodes for each that is to be taken out
 TOWARDS = 3  # neighbours for each of these

@@ -2,9 +2,9 @@
 import numpy as np
 
 from ..mesh import Mesh
+from ..sides import sides_of
 from ..topology import around_nodes, grouped
 from .misfit import doubled_areas
-from .sides import sides_of
 
 BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
 

@@ -3,7 +3,7 @@ from functools import cache
 
 import numpy as np
 
-from ..errors import MeshError
+from .. import checks
 from ..quality import angles
 from ..topology import HEADS, TAILS
 
@@ -84,16 +84,8 @@ class Misfit:
 
     def values(self, x, y):
         """Values of the function, finite and of the shape of x and y, or a MeshError."""
-        found = np.asarray(self.function(x, y))
+        found = checks.function_values(self.function, x, y)
         self.evaluations += found.size
-        if found.shape != x.shape or found.dtype.kind not in "fiu":
-            raise MeshError("shape", f"the function returned shape {found.shape} and dtype {found.dtype} "
-                            f"for points of shape {x.shape}; return one real number for each")
-        if not np.isfinite(found).all():
-            k = np.flatnonzero(~np.isfinite(found).ravel())[0]
-            at = f"({x.ravel()[k]}, {y.ravel()[k]})"
-            raise MeshError("finite", f"the function is {found.ravel()[k]} at {at}; "
-                            "it must be finite in the whole domain")
         return found
 
     def on_elements(self, corners, values):

@@ -3,8 +3,8 @@ import numpy as np
 
 from ..kernels import colours
 from ..kernels.backend import flat
+from ..sides import CORNER
 from .patches import Patches
-from .sides import CORNER
 
 REACH = 0.35  # of the extent of a patch: how far a node may go at once
 SHARES = (1.6, 0.7)  # of the step, tried one after the other: beyond the minimum, as others move as well

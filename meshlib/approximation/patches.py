@@ -12,8 +12,8 @@ All is written in the frame of a patch, two directions in which it is round.
 """
 import numpy as np
 
+from ..sides import INTERIOR
 from .collapse import beside
-from .sides import INTERIOR
 
 PROBE = 0.08  # of the extent of a patch, at which differences of the function are taken
 
