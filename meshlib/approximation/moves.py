@@ -1,8 +1,6 @@
 """Nodes moved to where the error of their patch is least, by Newton's method on many patches at once."""
 import numpy as np
 
-from ..kernels import colours
-from ..kernels.backend import flat
 from ..sides import CORNER
 from .patches import Patches
 
@@ -35,6 +33,8 @@ class _Sweep:
 
     def classes(self):
         """The nodes that may move, one colour after the other."""
+        from ..kernels import colours  # with numba, which takes a while to load
+        from ..kernels.backend import flat
         colour = flat(np.full(self.draft.n_nodes, -1, dtype=np.int32))
         colours.first_free(flat(self.around.starts), flat(self.around.numbers), colour)
         colour = np.where(self.draft.side != CORNER, np.asarray(colour), -1)
