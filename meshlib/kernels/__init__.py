@@ -19,6 +19,8 @@ class _Kernels:
         self._package = package
 
     def __getattr__(self, name):
+        if name.startswith("_"):  # tools look for such names
+            raise AttributeError(name)
         module = import_module(f"{self._package}.{name}")
         setattr(self, name, module)
         return module
