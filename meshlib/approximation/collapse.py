@@ -5,6 +5,7 @@ from ..choice import independent
 from ..sides import CORNER, INTERIOR
 
 LOOKED_AT = 3  # nodes for each that is to be taken out
+FEWEST = 40  # nodes looked at in any case
 TOWARDS = 3  # neighbours for each of these
 NEAR = 0.1  # of a boundary edge: the height at which a node over it may be put on it
 BETWEEN = 0.05  # of the same: how far from its ends
@@ -22,7 +23,7 @@ def collapse(draft, share):
           *---*              *---*
     """
     pairs, number = _Pairs(draft), int(share * draft.n_nodes)
-    pairs.keep_likely(draft, LOOKED_AT * number)
+    pairs.keep_likely(draft, max(LOOKED_AT * number, FEWEST))
     cost, into = pairs.cheapest(draft)
     nodes = np.argsort(cost, kind="stable")[:number]
     nodes = nodes[np.isfinite(cost[nodes])]

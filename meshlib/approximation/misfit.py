@@ -7,10 +7,12 @@ from .. import checks
 from ..quality import angles
 from ..topology import HEADS, TAILS
 
-# Dunavant 1985, degree 6: twelve points, the same from each corner.
-ORBITS = ((0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
+# Dunavant 1985, points the same from each corner: twelve of degree 6, six of degree 4.
+TWELVE = ((0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
           (0.06308901449150223, 0.06308901449150223, 0.05084490637020682),
           (0.31035245103378440, 0.63650249912139870, 0.08285107561837358))
+SIX = ((0.44594849091596489, 0.44594849091596489, 0.22338158967801147),
+       (0.09157621350977073, 0.09157621350977073, 0.10995174365532187))
 PERMUTATIONS = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2), (0, 2, 1), (2, 1, 0))
 ALONG = 4  # Gauss points along a boundary edge
 DEEPEST = 6  # divisions of an element into four
@@ -23,7 +25,7 @@ ORDER = np.arange(3)
 
 @cache
 def rule(level, halvings=0):
-    """Barycentric points and weights on parts of an element, twelve on each.
+    """Barycentric points and weights: twelve on a whole element, or six on each of its parts.
 
     The element is divided into 4^level equal parts, and each of these from its first
     corner into 2^halvings slices.
@@ -31,9 +33,9 @@ def rule(level, halvings=0):
     Examples
     --------
     >>> [len(rule(level)[1]) for level in range(3)]
-    [12, 48, 192]
+    [12, 24, 96]
     """
-    points, weights = _twelve_points()
+    points, weights = _points(SIX if level + halvings else TWELVE)
     parts = np.einsum("sck,pkd->pscd", _slices(2 ** halvings), _parts(level)).reshape(-1, 3, 3)
     return np.einsum("qk,pkc->pqc", points, parts).reshape(-1, 3), np.tile(weights, len(parts)) / len(parts)
 
@@ -45,9 +47,9 @@ def _slices(n):
     return np.stack([np.tile([1.0, 0.0, 0.0], (n, 1)), side[:-1], side[1:]], axis=1)
 
 
-def _twelve_points():
+def _points(orbits):
     points = {}
-    for p, q, weight in ORBITS:
+    for p, q, weight in orbits:
         for order in PERMUTATIONS:
             points[tuple(np.take((p, q, 1 - p - q), order).tolist())] = weight
     weights = np.array(list(points.values()))

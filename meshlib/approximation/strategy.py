@@ -1,15 +1,24 @@
-"""The strategy: grow a mesh, then take nodes out, put them in again and move them, in rounds."""
+"""The strategy: grow a mesh, then take nodes out, put them in again and move them, in rounds.
+
+A mesh for many nodes begins as one for a quarter of them, with its elements divided: in
+this way its good arrangement, the dearest thing to reach, is kept.
+"""
+import numpy as np
+
 from .collapse import collapse, settle_on_boundary
+from .division import divide
 from .insertion import insert
 from .moves import move
 from .swaps import swap
 
 GROWTH = 0.25  # of the nodes, inserted at once at most
 FEW_PASSES = 4  # of swaps between two insertions
-DOUBLINGS = 20
 SMALLEST = 40  # nodes at which the mesh is improved first
-EARLY_ROUNDS, ROUNDS, LAST_MOVES = 3, 6, 6
-TAKEN_OUT = 0.3  # of the nodes in the first round, less in each further one
+DIVISION = 4  # times the nodes: that of all elements
+EARLY_ROUNDS, ROUNDS, LAST_MOVES = 3, 8, 4
+MANY = 1600  # nodes, from which on there are no more rounds than that
+MOST_TIMES = 3  # as many rounds with few nodes
+TAKEN_OUT = 0.2  # of the nodes in the first round, less in each further one
 
 
 def steps(draft, n_nodes):
@@ -20,25 +29,35 @@ def steps(draft, n_nodes):
 def strategy(draft, n_nodes, note):
     """Adapt a draft with so many nodes; ``note`` is told after each step what it was."""
     for size, rounds in _sizes(draft, n_nodes):
+        divided(draft, size)
         grown(draft, size)
         note("grown")
-        for k in range(rounds):
-            improved(draft)
-            note("moved")
-            renewed(draft, size, TAKEN_OUT * (1 - k / ROUNDS))
-            note("renewed")
         improved(draft)
         note("moved")
+        for k in range(rounds):
+            renewed(draft, size, TAKEN_OUT * (1 - k / rounds))
+            note("renewed")
+            improved(draft)
+            note("moved")
     for _ in range(LAST_MOVES):
         improved(draft)
         note("moved")
 
 
 def _sizes(draft, n_nodes):
-    """Numbers of nodes at which the mesh is improved, each twice the one before, and the rounds at each."""
-    halves = [round(n_nodes / 2 ** k) for k in range(DOUBLINGS, 0, -1)]
-    early = [(size, EARLY_ROUNDS) for size in halves if size > max(draft.n_nodes, SMALLEST)]
-    return [*early, (n_nodes, ROUNDS)]
+    """Numbers of nodes at which the mesh is improved, each a quarter of the next, and the rounds at each."""
+    sizes = [n_nodes]
+    while sizes[0] / DIVISION > max(draft.n_nodes, SMALLEST):
+        sizes.insert(0, int(sizes[0] / DIVISION))
+    more = np.clip(np.sqrt(MANY / n_nodes), 1, MOST_TIMES)
+    return [*((size, EARLY_ROUNDS) for size in sizes[:-1]), (n_nodes, round(more * ROUNDS))]
+
+
+def divided(draft, n_nodes):
+    """Divide the elements as long as there are not so many nodes then."""
+    while draft.n_nodes >= SMALLEST and draft.n_nodes + draft.mesh.n_edges <= n_nodes and divide(draft):
+        swap(draft)
+        improved(draft)
 
 
 def grown(draft, n_nodes):
