@@ -11,11 +11,12 @@ from .optima import local_optima
 from .optimal import optimal
 from .quality import quality, uniformity, valence
 from .refinement import refined
+from .springs import DataSprings
 from .swapping import swapped
 
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "combined", "criteria", "curves",
-           "delaunay", "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped",
-           "uniformity", "valence"]
+__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "combined",
+           "criteria", "curves", "delaunay", "local_optima", "optimal", "problems", "quality", "refined",
+           "smoothed", "swapped", "uniformity", "valence"]

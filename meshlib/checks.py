@@ -125,6 +125,20 @@ def nodal_values(mesh, values):
     return values
 
 
+def function_values(function, x, y):
+    """Values of a vectorised function, finite and of the shape of x and y, or a MeshError."""
+    found = np.asarray(function(x, y))
+    if found.shape != x.shape or found.dtype.kind not in "fiu":
+        raise MeshError("shape", f"the function returned shape {found.shape} and dtype {found.dtype} "
+                        f"for points of shape {x.shape}; return one real number for each")
+    if not np.isfinite(found).all():
+        k = np.flatnonzero(~np.isfinite(found).ravel())[0]
+        at = f"({x.ravel()[k]}, {y.ravel()[k]})"
+        raise MeshError("finite", f"the function is {found.ravel()[k]} at {at}; "
+                        "it must be finite in the whole domain")
+    return found
+
+
 def cost_vector(costs, size, what):
     """What a criterion returned as (size,) floats of at least 0, or a MeshError."""
     costs = np.asarray(costs, dtype=float)

@@ -2,8 +2,10 @@ r"""Nodes taken out again where they serve least, and nodes put on the boundary 
 import numpy as np
 
 from ..choice import independent
-from .sides import CORNER, INTERIOR
+from ..sides import CORNER, INTERIOR
 
+LOOKED_AT = 3  # nodes for each that is to be taken out
+TOWARDS = 3  # neighbours for each of these
 NEAR = 0.1  # of a boundary edge: the height at which a node over it may be put on it
 BETWEEN = 0.05  # of the same: how far from its ends
 
@@ -19,9 +21,9 @@ def collapse(draft, share):
          \ / \ /            \ / \ /      (drawn: i goes into j)
           *---*              *---*
     """
-    pairs = _Pairs(draft)
+    pairs, number = _Pairs(draft), int(share * draft.n_nodes)
+    pairs.keep_likely(draft, LOOKED_AT * number)
     cost, into = pairs.cheapest(draft)
-    number = int(share * draft.n_nodes)
     nodes = np.argsort(cost, kind="stable")[:number]
     nodes = nodes[np.isfinite(cost[nodes])]
     corner, row = draft.patches().of(nodes)
@@ -44,14 +46,32 @@ class _Pairs:
         ends = np.sort(np.stack([self.i, self.j], axis=1), axis=1)
         return draft.mesh.boundary[draft.mesh.edge_numbers(ends)]
 
+    def keep_likely(self, draft, number):
+        """Keep so many nodes, and of each the few neighbours towards which the function bends least."""
+        bend = np.abs(draft.bends_of(np.stack([self.i, self.j], axis=1)))
+        order, rank = self._ranked(bend)
+        first = order[rank == 0]
+        worth = np.full(draft.n_nodes, np.inf)
+        worth[self.i[first]] = bend[first] ** 2 * draft.patch_sums(draft.mesh.areas)[self.i[first]]
+        few = np.zeros(draft.n_nodes, dtype=bool)
+        few[np.argsort(worth, kind="stable")[:number]] = True
+        chosen = np.sort(order[(rank < TOWARDS) & few[self.i[order]]])
+        self.i, self.j = self.i[chosen], self.j[chosen]
+
     def cheapest(self, draft):
         """For each node the least cost of drawing it into a neighbour, and that neighbour."""
         cost = self._costs(draft)
-        order = np.lexsort((np.arange(len(cost)), cost, self.i))
-        first = order[np.flatnonzero(np.diff(self.i[order], prepend=-1))]
+        order, rank = self._ranked(cost)
+        first = order[rank == 0]
         least, into = np.full(draft.n_nodes, np.inf), np.full(draft.n_nodes, -1)
         least[self.i[first]], into[self.i[first]] = cost[first], self.j[first]
         return least, into
+
+    def _ranked(self, cost):
+        """Rows node by node, the cheapest of each first, and the place of each among those of its node."""
+        order = np.lexsort((cost, self.i))
+        node = self.i[order]
+        return order, np.arange(len(order)) - np.searchsorted(node, node)
 
     def _costs(self, draft):
         """Error of the patch after less that before."""
@@ -61,8 +81,7 @@ class _Pairs:
         nodes, k, row = nodes[stays].copy(), k[stays], row[stays]
         nodes[np.arange(len(row)), k] = self.j[row]
         after = np.bincount(row, draft.error_of(nodes), len(self.i))
-        before = np.bincount(draft.elements.ravel(), np.repeat(draft.errors, 3), draft.n_nodes)
-        return after - before[self.i] + self._edge_costs(draft)
+        return after - draft.patch_sums(draft.errors)[self.i] + self._edge_costs(draft)
 
     def _edge_costs(self, draft):
         """The same along the boundary, for nodes on a side: one edge in place of two."""

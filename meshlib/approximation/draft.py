@@ -2,8 +2,8 @@
 import numpy as np
 
 from ..mesh import Mesh
+from ..sides import sides_of
 from ..topology import around_nodes, grouped
-from .sides import sides_of
 
 BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
 
@@ -61,6 +61,15 @@ class Draft:
     def edge_error_of(self, pairs):
         """Weighted integral of the squared error along edges given by node numbers, (m, 2)."""
         return self.weight * self.misfit.on_edges(self.nodes[pairs], self.values[pairs])
+
+    def bends_of(self, pairs):
+        """How far the function bends between two nodes: the sum at both less twice that in the middle."""
+        middle = self.nodes[pairs].mean(axis=1)
+        return self.values[pairs].sum(axis=1) - 2 * self.misfit.values(*middle.T.copy())
+
+    def patch_sums(self, of_elements):
+        """For each node the sum over the elements around it."""
+        return np.bincount(self.elements.ravel(), np.repeat(of_elements, 3), self.n_nodes)
 
     def edge_errors(self):
         """(T,): weighted error along the boundary edges of each element."""

@@ -19,6 +19,20 @@ def equilibrium(n, starts, neighbours, constants, place):
 
 
 @compiled
+def on_rail(px, py, rails, i):
+    """The point of the side along which the i-th node slides that is nearest to a point, or the point itself.
+
+    A rail is where it starts, x and y, and what leads along it, zero if the node is free.
+    """
+    x, y, dx, dy = rails[4 * i], rails[4 * i + 1], rails[4 * i + 2], rails[4 * i + 3]
+    square = dx * dx + dy * dy
+    if square == 0:
+        return px, py
+    share = ((px - x) * dx + (py - y) * dy) / square
+    return x + share * dx, y + share * dy
+
+
+@compiled
 def tangles(n, px, py, starts, second, third, least, place):
     """Whether node n at (px, py) makes an element of its patch too small or turns it over."""
     for i in range(starts[n], starts[n + 1]):
@@ -32,18 +46,27 @@ def tangles(n, px, py, starts, second, third, least, place):
 
 
 @compiled
-def sweep(centres, edge_starts, neighbours, constants, element_starts, second, third, least, place):
-    """Move every centre to its equilibrium, one after the other.
+def sweep(centres, rails, edge_starts, neighbours, constants, element_starts, second, third,
+          halvings, least, place):
+    """Move every centre to its equilibrium, or as far towards it as halvings of the step allow.
 
     ``place`` holds x and y of node after node.  Returns the largest movement and the
     number of moves refused.
     """
     largest, refused = 0.0, 0
-    for n in centres:
+    for i in range(len(centres)):
+        n = centres[i]
+        x, y = place[2 * n], place[2 * n + 1]
         px, py = equilibrium(n, edge_starts, neighbours, constants, place)
-        if tangles(n, px, py, element_starts, second, third, least, place):
+        px, py = on_rail(px, py, rails, i)
+        left = halvings
+        tangled = tangles(n, px, py, element_starts, second, third, least, place)
+        while tangled and left > 0:
+            px, py, left = x + (px - x) / 2, y + (py - y) / 2, left - 1
+            tangled = tangles(n, px, py, element_starts, second, third, least, place)
+        if tangled:
             refused += 1
             continue
-        largest = max(largest, hypot(px - place[2 * n], py - place[2 * n + 1]))
+        largest = max(largest, hypot(px - x, py - y))
         place[2 * n], place[2 * n + 1] = px, py
     return largest, refused
