@@ -52,7 +52,8 @@ class Objective:
 
     def of(self, mesh):
         """The indicator of a whole mesh."""
-        return float((self.criterion.costs(mesh, self.function(*mesh.nodes.T)) ** self.norm).sum())
+        same = Mesh._trusted(mesh.nodes, canonical(mesh.elements))  # as in patches: costs round alike
+        return float((self.criterion.costs(same, self.function(*mesh.nodes.T)) ** self.norm).sum())
 
     def patch(self, nodes, elements, values, centre):
         """The patch of a node of a mesh, given by its arrays."""
@@ -181,7 +182,8 @@ class Patch:
         procedure = Procedure(self.mesh, self.values, objective.criterion, objective.norm, objective.limits,
                               objective.tolerance, once=True)
         done = procedure.run(self._edges(all))
-        return replace(self, elements=done.elements) if done.swaps else self
+        own, beyond = np.split(done.elements, [self.size])
+        return replace(self, elements=np.concatenate([canonical(own), beyond])) if done.swaps else self
 
     def moved(self):
         """The patch with its middle node at the best position found.
