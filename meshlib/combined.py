@@ -78,7 +78,7 @@ def combined(mesh, function, criterion=None, norm=2, ways=WAYS, rim=True, min_an
     min_angle : float, optional
         Steps that create an angle below this many degrees are refused.
     least_gain : float
-        What a step must gain, relative to the indicator of the start mesh.
+        What a step must gain, relative to the indicator of the start mesh; above 0.
     sweeps : int
         Largest number of sweeps over all interior nodes.
 
@@ -112,7 +112,8 @@ def combined(mesh, function, criterion=None, norm=2, ways=WAYS, rim=True, min_an
     mesh = checks.a_mesh(mesh)
     objective = _objective(mesh, function, criterion, norm, rim, min_angle)
     ways = _ways(ways)
-    share = checks.number(least_gain, "least_gain", 0, 1, "a share of at least 0 and below 1")
+    share = checks.number(least_gain, "least_gain", np.nextafter(0, 1), 1, "a share above 0 and below 1, "
+                          "since ever smaller gains need never end")
     run = _Run(mesh, objective, ways, share)
     period = run.sweep(checks.whole(sweeps, 1, "sweeps"))
     green = mesh.green[halved(run.nodes, run.elements, mesh.green) & run.untouched(mesh)]

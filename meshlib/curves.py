@@ -8,7 +8,8 @@ same point at both ends.  Chords between nodes on it leave slivers::
        s_i ----------- s_i+1    above its chord: a sliver of area k h^3 / 12
 
 The total is least where the integral of k^(1/3) is the same between any two neighbours: a
-mesh problem in one dimension, cut open at t = 0.
+mesh problem in one dimension, cut open at t = 0.  `boundary_parameters` solves it; what it
+returns goes, with the curve, into `deviation` and `domain_mesh`.
 """
 import numpy as np
 
@@ -16,6 +17,7 @@ from . import checks
 from .delaunay import delaunay
 from .errors import MeshError
 from .mesh import Mesh
+from .polygons import inside, lattice_inside
 
 DENSITIES = ("curvature", "length", "parameter")
 SAMPLES = 4096  # of the curve, along which the density is integrated
@@ -23,7 +25,6 @@ CLOSED = 1e-9  # gap between both ends of a curve, relative to its extent
 PER_ARC = 256  # parts of an arc, over which a sliver is integrated
 DATA_POWER, CURVATURE_POWER = 2 / 5, 1 / 3
 NOISE = 8  # units of rounding in a second difference
-APART = 0.6  # least distance of an inner node to the boundary, in spacings
 SMALLEST_RING = 3
 
 
@@ -116,24 +117,6 @@ def boundary_parameters(curve, n, density="curvature", even=0.0):
     return equidistributed((1 - even) * found / (found.mean() or 1) + even * speed / speed.mean(), n)
 
 
-def boundary_nodes(curve, n, density="curvature", even=0.0):
-    """Nodes along a closed curve, see `boundary_parameters`.
-
-    Returns
-    -------
-    (n, 2) ndarray of float64
-        In the direction of the curve.
-
-    Examples
-    --------
-    >>> def circle(t):
-    ...     return np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)
-    >>> abs(boundary_nodes(circle, 4, "length").round(6)).tolist()
-    [[1.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.0, 1.0]]
-    """
-    return np.column_stack(curve(boundary_parameters(curve, n, density, even)))
-
-
 def deviation(curve, parameters):
     """Area between a closed curve and the polygon with nodes at the given parameters.
 
@@ -142,12 +125,17 @@ def deviation(curve, parameters):
     curve : callable
         As for `boundary_parameters`.
     parameters : (n,) array_like of float
-        Ascending, within one period.
+        At least 3, ascending, within one period.
 
     Returns
     -------
     float
         Slivers inside and outside both count with their size.
+
+    Raises
+    ------
+    MeshError
+        If the parameters are too few or do not ascend within one period.
 
     Examples
     --------
@@ -158,10 +146,10 @@ def deviation(curve, parameters):
     >>> round(deviation(circle, [0, 0.25, 0.5, 0.75]), 3), round(np.pi - 2, 3)
     (1.142, 1.142)
     """
-    start = checks.numeric(parameters, "parameters")
+    start = _ascending(curve, parameters)
     end = np.append(start[1:], start[0] + 1)
     t = start[:, None] + (end - start)[:, None] * np.linspace(0, 1, PER_ARC + 1)
-    x, y = curve(t % 1)
+    x, y = _points(curve, t % 1)
     chord = np.stack([x[:, -1] - x[:, 0], y[:, -1] - y[:, 0]])[..., None]
     away = np.stack([x - x[:, :1], y - y[:, :1]])
     along = (away * chord).sum(axis=0)
@@ -170,13 +158,15 @@ def deviation(curve, parameters):
     return float((slivers / (chord ** 2).sum(axis=0)[:, 0]).sum())
 
 
-def domain_mesh(curve, n, density="curvature", even=0.0, spacing=None):
+def domain_mesh(curve, parameters, spacing=None):
     """A start mesh of the domain inside a closed curve.
 
     Parameters
     ----------
-    curve, n, density, even
-        As for `boundary_parameters`; the curve goes round counter-clockwise.
+    curve : callable
+        As for `boundary_parameters`; it goes round counter-clockwise.
+    parameters : (n,) array_like of float
+        Of the boundary nodes: at least 3, ascending, within one period.
     spacing : float, optional
         Of the inner nodes, which form a lattice of equilateral triangles; by default the
         mean length of the boundary edges.
@@ -189,7 +179,8 @@ def domain_mesh(curve, n, density="curvature", even=0.0, spacing=None):
     Raises
     ------
     MeshError
-        If the boundary crosses itself, or an edge of it is no Delaunay edge.
+        If the parameters are too few or do not ascend within one period, the curve goes
+        round clockwise or crosses itself, or an edge of the boundary is no Delaunay edge.
 
     Notes
     -----
@@ -202,34 +193,67 @@ def domain_mesh(curve, n, density="curvature", even=0.0, spacing=None):
     --------
     >>> def circle(t):
     ...     return np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)
-    >>> mesh = domain_mesh(circle, 12)
+    >>> mesh = domain_mesh(circle, boundary_parameters(circle, 12))
     >>> mesh.n_nodes, int(mesh.boundary_nodes.sum())
     (19, 12)
     """
-    ring = boundary_nodes(curve, n, density, even)
+    ring = _points(curve, _ascending(curve, parameters) % 1).T
     edges = np.roll(ring, -1, axis=0) - ring
     if (ring[:, 0] * edges[:, 1] - ring[:, 1] * edges[:, 0]).sum() <= 0:
         raise MeshError("orientation", "the curve goes round clockwise; reverse its parameter")
     spacing = np.hypot(*edges.T).mean() if spacing is None else spacing
     spacing = checks.number(spacing, "spacing", np.nextafter(0, 1), np.inf, "a finite length above 0")
-    whole = delaunay(np.concatenate([ring, _inner_nodes(ring, spacing)]))
-    _refuse_missing(whole, n)
-    return Mesh(whole.nodes, whole.elements[_inside(ring, whole.corners.mean(axis=1))]).validate()
+    whole = delaunay(np.concatenate([ring, lattice_inside(ring, spacing)]))
+    _refuse_missing(whole, len(ring))
+    return Mesh(whole.nodes, whole.elements[inside(ring, whole.corners.mean(axis=1))]).validate()
+
+
+def _ascending(curve, parameters):
+    """Parameters of nodes in order along a closed curve, or a MeshError."""
+    _sampled(curve)
+    t = checks.numeric(parameters, "parameters")
+    if t.ndim != 1 or len(t) < SMALLEST_RING:
+        raise MeshError("shape", f"parameters have shape {t.shape}; give one number for each of at least "
+                        f"{SMALLEST_RING} nodes")
+    bad = np.flatnonzero(~(np.diff(t, append=t[0] + 1) > 0))
+    if bad.size:
+        k = (bad[0] + 1) % len(t)
+        raise MeshError("order", f"parameter {k} is {t[k]:g}, which does not follow {t[bad[0]]:g}; "
+                        "give them ascending, within one period", (k,))
+    return t
+
+
+def _refuse_missing(mesh, n):
+    """Raise a MeshError that names an edge between the first n nodes that the mesh does not have."""
+    pairs = np.sort(np.column_stack([np.arange(n), (np.arange(n) + 1) % n]), axis=1)
+    known = np.isin(pairs @ [mesh.n_nodes, 1], mesh.edges.astype(np.int64) @ [mesh.n_nodes, 1])
+    if not known.all():
+        i, j = pairs[~known][0]
+        raise MeshError("boundary", f"boundary nodes {i} and {j} are not joined in the Delaunay mesh; "
+                        "give more boundary nodes or a larger spacing", (i, j))
 
 
 # -- densities --------------------------------------------------------------------------
 
 
 def _sampled(curve):
-    """Points (2, SAMPLES) of a curve at equal steps of its parameter."""
-    t = np.linspace(0, 1, SAMPLES + 1)
-    points = checks.numeric(np.stack(np.broadcast_arrays(*curve(t))), "points of the curve")
-    if points.shape != (2, len(t)) or not np.isfinite(points).all():
-        raise MeshError("finite", "the curve must return finite x and y for every t from 0 to 1")
+    """Points (2, SAMPLES) of a closed curve at equal steps of its parameter, or a MeshError."""
+    points = _points(curve, np.linspace(0, 1, SAMPLES + 1))
     if np.abs(points[:, -1] - points[:, 0]).max() > CLOSED * np.ptp(points, axis=1).max():
         raise MeshError("closed", f"the curve is at {_text(points[:, 0])} for t = 0 and at "
                         f"{_text(points[:, -1])} for t = 1; give a closed one")
     return points[:, :-1]
+
+
+def _points(curve, t):
+    """The arrays x and y, stacked, at parameters of any shape, or a MeshError."""
+    if not callable(curve):
+        raise MeshError("type", f"the curve is a {type(curve).__name__}; give a function of t "
+                        "that returns x and y")
+    points = checks.numeric(np.stack(np.broadcast_arrays(*curve(t))), "points of the curve")
+    if points.shape != (2, *t.shape) or not np.isfinite(points).all():
+        raise MeshError("finite", "the curve must return finite x and y for every t from 0 to 1")
+    return points
 
 
 def _text(point):
@@ -268,45 +292,3 @@ def _of_data(points, speed, function):
         raise MeshError("finite", "the function must return one finite value for each point of the curve")
     u_ss = (_second(u) - _derivative(u) * _derivative(speed) / speed) / speed ** 2
     return _above_noise(u_ss, u / speed ** 2) ** DATA_POWER * speed
-
-
-# -- start meshes -------------------------------------------------------------------------
-
-
-def _inner_nodes(ring, spacing):
-    """A lattice of equilateral triangles inside a polygon, away from its boundary."""
-    low, high = ring.min(axis=0), ring.max(axis=0)
-    steps = (high - low) / 2 / spacing / (1, np.sqrt(3) / 2)
-    i, j = (np.arange(-n, n + 1) for n in np.ceil(steps).astype(int) + 1)
-    x, y = np.meshgrid(i * spacing, j * spacing * np.sqrt(3) / 2)
-    x[j % 2 == 1] += spacing / 2
-    nodes = np.column_stack([x.ravel(), y.ravel()]) + (low + high) / 2
-    nodes = nodes[_inside(ring, nodes)]
-    return nodes[_distance(ring, nodes) > APART * spacing]
-
-
-def _inside(ring, points):
-    """Whether points lie inside a polygon: a ray to the right crosses an odd number of edges."""
-    (px, py), (qx, qy) = ring.T, np.roll(ring, -1, axis=0).T
-    x, y = points[:, :1], points[:, 1:]
-    spans = (py > y) != (qy > y)
-    left = (px - x) * (qy - y) - (qx - x) * (py - y)
-    return (spans & ((left > 0) == (qy > py))).sum(axis=1) % 2 == 1
-
-
-def _distance(ring, points):
-    """Distance of points to the edges of a polygon."""
-    along = np.roll(ring, -1, axis=0) - ring
-    away = points[:, None] - ring
-    share = ((away * along).sum(axis=2) / (along ** 2).sum(axis=1)).clip(0, 1)
-    return np.sqrt(((away - share[..., None] * along) ** 2).sum(axis=2)).min(axis=1)
-
-
-def _refuse_missing(mesh, n):
-    """Raise a MeshError that names an edge between the first n nodes that the mesh does not have."""
-    pairs = np.sort(np.column_stack([np.arange(n), (np.arange(n) + 1) % n]), axis=1)
-    known = np.isin(pairs @ [mesh.n_nodes, 1], mesh.edges.astype(np.int64) @ [mesh.n_nodes, 1])
-    if not known.all():
-        i, j = pairs[~known][0]
-        raise MeshError("boundary", f"boundary nodes {i} and {j} are not joined in the Delaunay mesh; "
-                        "give more boundary nodes or a larger spacing", (i, j))
