@@ -93,11 +93,12 @@ def combined(mesh, function, criterion=None, norm=2, ways=WAYS, rim=True, min_an
 
     Notes
     -----
-    *It terminates* with ``rim``, after at most ``1 / least_gain`` steps: a step changes
-    no cost outside what the indicator of its patch counts, so that the indicator of the
-    mesh, which is never negative, falls by as much.  Without ``rim`` a criterion on edges
-    or nodes may gain on a patch what it loses twice beside it, and the procedure can come
-    back to where it was.  That is noticed after the sweep, and ends it.
+    *It terminates* with ``rim``, or if costs live on elements, after at most
+    ``1 / least_gain`` steps: a step changes no cost outside what the indicator of its
+    patch counts, so that the indicator of the mesh, which is never negative, falls by as
+    much.  Without ``rim`` a criterion on edges or nodes may gain on a patch what it loses
+    beside it, and the procedure can come back to where it was.  That is noticed after
+    the sweep, and ends it.
 
     Made for meshes of a few hundred nodes, with any criterion; `approximate` is the
     fast way to a small L2 error.
@@ -149,7 +150,8 @@ class _Run:
         self.values = objective.function(*mesh.nodes.T).astype(float)
         self.inner = np.flatnonzero(~mesh.boundary_nodes)
         self.indicator = objective.of(mesh)
-        self.least, self.steps, self.count = share * self.indicator, [], 0
+        noise = objective.tolerance[1] ** objective.norm
+        self.least, self.steps, self.count = max(share * self.indicator, noise), [], 0
 
     def sweep(self, most):
         """Sweep until nothing changes or a mesh comes again; returns the period."""

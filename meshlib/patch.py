@@ -19,7 +19,7 @@ from .procedure import Limits, Procedure
 from .quality import angles
 from .topology import canonical, quadrilaterals
 
-FLAT = 1e-9  # twice the area over the square of a patch's extent, below which an element is refused
+FLAT = 1e-9  # radians, about: an element is refused if its smallest angle is below
 COMPASS = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]) / 1.0
 SAMPLES = np.array([(1, 1, 1), (4, 1, 1), (1, 4, 1), (1, 1, 4)])  # in each element, barycentric
 FIRST_STEP, LAST_STEP = 0.25, 1e-4  # of the search for a position, relative to the extent of the patch
@@ -107,8 +107,8 @@ class Patch:
 
     @cached_property
     def error(self):
-        """The indicator of the patch as it is."""
-        return float(self.errors(self.nodes[[self.centre]])[0])
+        """The indicator of the patch as it is, however flat its elements."""
+        return float(self._sums(self.nodes[[self.centre]])[0])
 
     @cached_property
     def extent(self):
@@ -122,9 +122,12 @@ class Patch:
         positions = np.asarray(positions, dtype=float)
         found, fits = np.full(len(positions), np.inf), self._fits(positions)
         if fits.any():
-            costs = self._costs(*self._moved(positions[fits]))
-            found[fits] = (costs ** self.objective.norm).sum(axis=1)
+            found[fits] = self._sums(positions[fits])
         return found
+
+    def _sums(self, positions):
+        """The indicator for each position, whatever becomes of the mesh."""
+        return (self._costs(*self._moved(positions)) ** self.objective.norm).sum(axis=1)
 
     def _moved(self, positions):
         """Nodes (m, n, 2) and values (m, n) with the centre at each of m positions."""
@@ -139,11 +142,9 @@ class Patch:
         nodes[:, self.centre] = positions
         corners = nodes[:, self.elements[:self.size]]
         u, v = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
-        fits = (u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0] > FLAT * self.extent ** 2).all(axis=1)
-        if self.objective.limits.angle:
-            fits &= angles(corners.reshape(-1, 3, 2)).min(axis=1).reshape(len(fits), -1).min(
-                axis=1) >= self.objective.limits.angle
-        return fits
+        upright = (u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0] > 0).all(axis=1)
+        smallest = angles(corners.reshape(-1, 3, 2)).reshape(len(positions), -1).min(axis=1)
+        return upright & (smallest >= max(FLAT, self.objective.limits.angle))
 
     def _costs(self, nodes, values):
         """All costs that count, a row for each of m positions."""
