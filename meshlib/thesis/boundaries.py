@@ -9,7 +9,7 @@ from .tables import grid, numbered
 
 START, FUNCTION, LIMIT = "33", "SR1", 10.0
 NODES = tuple(2 ** k for k in range(3, 9))  # along a boundary
-DENSITIES = {"curvature": "curvature to the power 1/3", "length": "arc length", "parameter": "angle"}
+DENSITIES = {"curvature": "$\\kappa^{1/3}$", "length": "arc length", "parameter": "parameter"}
 LOBES, DEPTH = 3, 0.35
 
 
@@ -32,9 +32,9 @@ def table_measures():
         rows.append((name, mesh.n_nodes, mesh.n_elements, f"{un.mean():.2f}", f"{un.max():.1f}",
                      f"{val.mean():.3f}", val.max()))
     head = ("Mesh", "Nodes", "Elements", "Uniformity, mean", "max", "Valence, mean", "max")
-    return numbered("tab-7-2-measures", f"Uniformity and valence for {FUNCTION}: the start mesh, the same nodes "
-                    f"swapped, smoothed and combined (no angle below {LIMIT:g}°), and every element split once.",
-                    grid(head, rows))
+    caption = (f"Uniformity and valence for {FUNCTION}: the start mesh, the same nodes swapped, smoothed and "
+               f"combined (no angle below {LIMIT:g}°), and every element split once.")
+    return numbered("tab-7-2-measures", caption, grid(head, rows))
 
 
 # -- the boundary of the domain ------------------------------------------------------------------
@@ -72,23 +72,31 @@ def lost(name, density):
 
 
 def limits(name, samples=1 << 14):
-    """What n^2 times the area tends to, by density: W^2/12 times the integral of k/w^2, W that of w.
+    """What n^2 times the area tends to, by density w: W^2 K/12, with W = int w ds and K = int k/w^2 ds.
+
+    An arc of length h = W/(n w) leaves a sliver of area k h^3/12, and there are n w/W of
+    them for each unit of length.
 
     Examples
     --------
     >>> round(limits("ellipse")["curvature"] / (2 * np.pi ** 3 * 4 / 3), 6)
     1.0
     """
-    t = np.arange(samples) / samples
-    x, y = (np.fft.fft(v) for v in CURVES[name](t))
-    turns = 2j * np.pi * np.fft.fftfreq(samples, 1 / samples)
-    (dx, dy), (ddx, ddy) = ([np.fft.ifft(turns ** k * v).real for v in (x, y)] for k in (1, 2))
-    speed, bend = np.hypot(dx, dy), np.abs(dx * ddy - dy * ddx)
-    curvature = bend / speed ** 3
-    weights = {"curvature": np.cbrt(curvature), "length": np.ones(samples), "parameter": 1 / speed}
-    return {density: float((w * speed).mean() ** 2 / 12
-                           * (np.divide(curvature, w ** 2, where=w > 0, out=0 * w) * speed).mean())
-            for density, w in weights.items()}
+    speed, curvature = _speed_and_curvature(CURVES[name](np.arange(samples) / samples))
+    found = {}
+    weights = {"curvature": np.cbrt(curvature), "length": 1 + 0 * speed, "parameter": 1 / speed}
+    for density, w in weights.items():
+        ratio = np.divide(curvature, w ** 2, where=w > 0, out=np.zeros(samples))
+        found[density] = float((w * speed).mean() ** 2 * (ratio * speed).mean() / 12)
+    return found
+
+
+def _speed_and_curvature(points):
+    """Of a smooth periodic curve at equal steps of its parameter, by Fourier series."""
+    n = len(points[0])
+    turns = 2j * np.pi * np.fft.fftfreq(n, 1 / n)
+    (dx, dy), (ddx, ddy) = (np.fft.ifft(turns ** k * np.fft.fft(points)).real for k in (1, 2))
+    return np.hypot(dx, dy), np.abs(dx * ddy - dy * ddx) / np.hypot(dx, dy) ** 3
 
 
 def table_lost():

@@ -112,8 +112,8 @@ def table_needed():
     """Nodes at which the error is a hundredth, by splitting and marking."""
     rows = [(*names, *(_needed(rounds(function, split, mark)) for mark in MARKINGS))
             for names, function, split in _lines()]
-    caption = ("Nodes needed until the $L_2$ error is a hundredth of that on the 33 nodes; in brackets, where "
-               f"a mesh of more than {MOST_NODES} nodes was reached before, the error there in per cent of it.")
+    caption = ("Nodes needed until the $L_2$ error is a hundredth of that on the 33 nodes; in brackets, "
+               f"where a mesh of {MOST_NODES} nodes or more came first, the error there in per cent of it.")
     return numbered("tab-7-1-nodes", caption, grid(("", "", *(f"by {m}" for m in MARKINGS)), rows))
 
 

@@ -19,7 +19,7 @@ def splittings_compared():
     """L2 error and smallest angle against the number of nodes, a column for each function."""
     pyplot = plotting.look.pyplot()
     with plotting.style():
-        figure, rows = pyplot.subplots(2, len(splittings.FUNCTIONS), sharex=True, sharey="row",
+        figure, rows = pyplot.subplots(2, len(splittings.FUNCTIONS), sharex=True, sharey="row", squeeze=False,
                                        layout="constrained", figsize=(plotting.WIDTH, HEIGHT + LEGEND))
         for (above, below), function in zip(rows.T, splittings.FUNCTIONS, strict=True):
             _draw(above, below, function)
@@ -45,7 +45,8 @@ def _draw(above, below, function):
 
 
 def _legend(figure, line):
-    handles = [line([], [], color=colour, linewidth=2 * LINE, label=split) for split, colour in COLOURS.items()]
+    handles = [line([], [], color=colour, linewidth=2 * LINE, label=split)
+               for split, colour in COLOURS.items()]
     handles += [line([], [], color=plotting.INK, linestyle=dashes, label=f"by {mark}")
                 for mark, dashes in DASHES.items()]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.0,
