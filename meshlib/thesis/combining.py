@@ -44,7 +44,8 @@ def table_cycle():
         rows += [(title * (k == 0), f"{step['way']} around node {step['node']}", f"{step['gain']:.2f}",
                   f"{before[k]:.2f}", f"{step['indicator']:.2f}") for k, step in enumerate(found.steps)]
     head = ("Rim", "Step", "Gain of the patch", "$J$ of the mesh before", "after")
-    return numbered("tab-7-5-cycle", "Two steps on a mesh of six nodes, criterion JND-$L_2$.", grid(head, rows))
+    caption = "Two steps on a mesh of six nodes, criterion JND-$L_2$."
+    return numbered("tab-7-5-cycle", caption, grid(head, rows))
 
 
 @cache
@@ -90,9 +91,9 @@ def table_errors():
         errors = (f"{settled_error(mesh, u):.4f}" for mesh in meshes)
         rows.append((function, *errors, f"{_smallest(meshes[-1]):.0e}°"))
     head = ("", "Start", "Swapped", "Moved", "In turn", "Combined", "Combined, no limit", "Smallest angle")
-    caption = (f"$L_2$ error on the 33 nodes with no new angle below {LIMIT:g}°: by either way alone, by both in "
-               "turn, and by the better of both on each patch; and the last without that limit, with its "
-               "smallest angle.")
+    caption = (f"$L_2$ error on the 33 nodes with no new angle below {LIMIT:g}°: by either way alone, by "
+               "both in turn, and by the better of both on each patch; and the last without that limit, with "
+               "its smallest angle.")
     return numbered("tab-7-5-errors", caption, grid(head, rows))
 
 
@@ -108,5 +109,6 @@ def table_gains(function="SR1"):
         error = f"{settled_error(found.mesh, u):.4f}"
         rows.append((f"$10^{{-{power}}}$", len(found.steps), found.sweeps, error))
     head = ("Least gain $\\delta/J_0$", "Steps", "Sweeps", "$L_2$ error")
-    caption = f"The combined strategy for {function}, without a limit on angles, by the gain that a step must have."
+    caption = (f"The combined strategy for {function}, without a limit on angles, by the gain that a step "
+               "must have.")
     return numbered("tab-7-5-gains", caption, grid(head, rows))
