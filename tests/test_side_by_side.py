@@ -132,6 +132,17 @@ def test_the_table_of_areas_ends_with_the_limits():
                                   abs=6e-3)
 
 
+def test_the_error_along_the_boundary_tends_to_its_limit():
+    """Between nodes placed by the data; equal arcs are fifty times worse on a narrow cliff."""
+    by_data, even = (boundaries.missed("trefoil", "SR1", by_data) for by_data in (True, False))
+    limit = boundaries.missed_limit("trefoil", "SR1")
+    assert by_data[-1] == pytest.approx(limit, rel=0.02) and (np.diff(by_data) < 0).all()
+    assert even[-1] > 45 * limit
+    (first, second) = rows(boundaries.table_missed())
+    assert [float(cell) for cell in first[1:]] == pytest.approx([*by_data, limit], abs=6e-4)
+    assert [float(cell) for cell in second[1:-1]] == pytest.approx(even, abs=6e-4)
+
+
 # -- 7.5 ------------------------------------------------------------------------------------------
 
 
