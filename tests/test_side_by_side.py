@@ -156,9 +156,10 @@ def test_the_table_of_the_cycle():
 
 def test_the_table_of_errors(monkeypatch):
     monkeypatch.setattr(combining, "FUNCTIONS", ("SR1",))
-    ((_, start, swapped, moved, in_turn, both, free, smallest),) = rows(combining.table_errors())
+    ((_, start, swapped, moved, in_turn, both, free, flat),) = rows(combining.table_errors())
     assert float(start) > float(swapped) > float(moved) > float(both) >= float(in_turn) > float(free)
-    assert float(smallest.strip("°")) < 1e-3
+    few, all_of_them = map(int, flat.split(" of "))
+    assert all_of_them / 2 <= few <= all_of_them  # where nothing moves, what cannot be mended is made thin
     mesh = combining.adapted("SR1").mesh
     assert np.degrees(angles(mesh.corners).min()) == pytest.approx(10, abs=0.01)
 

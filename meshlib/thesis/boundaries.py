@@ -3,11 +3,12 @@ from functools import cache
 
 import numpy as np
 
-from .. import combined, curves, problems, refined, smoothed, swapped, uniformity, valence
+from .. import curves, problems, refined, smoothed, swapped, uniformity, valence
 from ..splitting import SPLITS
+from .combining import LIMIT, START, adapted
 from .tables import grid, numbered
 
-START, FUNCTION, LIMIT = "33", "SR1", 10.0
+FUNCTION = "SR1"
 NODES = tuple(2 ** k for k in range(3, 9))  # along a boundary
 DENSITIES = {"curvature": "$\\kappa^{1/3}$", "length": "arc length", "parameter": "parameter"}
 LOBES, DEPTH = 3, 0.35
@@ -21,7 +22,7 @@ def meshes():
     """What chapter 3 and Algorithm 7.5.1 make of the 33 nodes, by name."""
     mesh, u = problems.mesh(START), problems.functions[FUNCTION]
     found = {"start": mesh, "swapped": swapped(mesh, u, "abn").mesh, "smoothed": smoothed(mesh).mesh,
-             "combined": combined(mesh, u, min_angle=LIMIT).mesh}
+             "combined": adapted(FUNCTION).mesh}
     return found | {split: refined(mesh, u, fraction=1, split=split).mesh for split in SPLITS}
 
 
@@ -151,9 +152,9 @@ def missed_limit(name, function):
 
 def table_missed(name="trefoil", function="SR1"):
     """n^2 times the error along the boundary, by the data and by arc length."""
-    rows = [(title, *(f"{v:.3f}" for v in missed(name, function, by_data)), limit)
-            for title, by_data, limit in ((r"$\lvert u_{ss}\rvert^{2/5}$", True, f"{missed_limit(name, function):.3f}"),
-                                          ("arc length", False, ""))]
+    limit = f"{missed_limit(name, function):.3f}"
+    rows = [(title, *(f"{v:.3f}" for v in missed(name, function, by_data)), last)
+            for title, by_data, last in ((r"$\lvert u_{ss}\rvert^{2/5}$", True, limit), ("arc length", False, ""))]
     head = ("The same between neighbours", *(f"$n = {n}$" for n in NODES), "$n \\to \\infty$")
     caption = (f"$n^2$ times the $L_2$ error of linear interpolation of {function} along the boundary of the "
                f"{name} between $n$ nodes.")
