@@ -153,8 +153,9 @@ def missed_limit(name, function):
 def table_missed(name="trefoil", function="SR1"):
     """n^2 times the error along the boundary, by the data and by arc length."""
     limit = f"{missed_limit(name, function):.3f}"
+    cases = (r"$\lvert u_{ss}\rvert^{2/5}$", True, limit), ("arc length", False, "")
     rows = [(title, *(f"{v:.3f}" for v in missed(name, function, by_data)), last)
-            for title, by_data, last in ((r"$\lvert u_{ss}\rvert^{2/5}$", True, limit), ("arc length", False, ""))]
+            for title, by_data, last in cases]
     head = ("The same between neighbours", *(f"$n = {n}$" for n in NODES), "$n \\to \\infty$")
     caption = (f"$n^2$ times the $L_2$ error of linear interpolation of {function} along the boundary of the "
                f"{name} between $n$ nodes.")
