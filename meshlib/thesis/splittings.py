@@ -135,7 +135,20 @@ def table_reasons():
     for names, function, split in _lines():
         found = rounds(function, split, "element")
         rows.append((*names, f"{found.changed:.1f}", f"{found.smallest_angles[-1]:.2f}°",
-                     f"{found.mean_largest_angle:.0f}°"))
-    head = ("", "", "Elements changed for each one marked", "Smallest angle", "Mean largest angle")
-    return numbered("tab-7-1-reasons", "Marked by element: what has to change with each marked element, and "
-                    "the angles of the last mesh.", grid(head, rows))
+                     f"{found.mean_largest_angle:.0f}°", f"{largest_kink(function, split):.0f}°"))
+    head = ("", "", "Elements changed for each one marked", "Smallest angle", "Mean largest angle",
+            "Largest kink")
+    return numbered("tab-7-1-reasons", "Marked by element: what has to change with each marked element, the "
+                    "angles of the last mesh, and the largest angle between normals there.", grid(head, rows))
+
+
+def largest_kink(function, split, number=-1):
+    """The largest ABN of one of the meshes marked by element, in degrees.
+
+    Examples
+    --------
+    >>> [round(largest_kink("SR1", "centroid", k)) for k in (0, 4, -1)]
+    [57, 174, 180]
+    """
+    mesh = rounds(function, split, "element").meshes[number]
+    return np.degrees(criteria.costs(mesh, problems.functions[function], CRITERION).max())
