@@ -148,7 +148,8 @@ class _Run:
         self.objective, self.ways = objective, ways
         self.nodes, self.elements = mesh.nodes.copy(), mesh.elements.copy()
         self.values = objective.function(*mesh.nodes.T).astype(float)
-        self.inner = np.flatnonzero(~mesh.boundary_nodes)
+        self.inside = ~mesh.boundary_nodes
+        self.due = self.inside.copy()  # not where nothing changed since a patch was found to gain nothing
         self.indicator = objective.of(mesh)
         noise = objective.tolerance[1] ** objective.norm
         self.least, self.steps, self.count = max(share * self.indicator, noise), [], 0
@@ -157,7 +158,11 @@ class _Run:
         """Sweep until nothing changes or a mesh comes again; returns the period."""
         seen = {self._key(): 0}
         for self.count in range(1, most + 1):
-            if not sum([self._improve(node) for node in self.inner]):
+            before = len(self.steps)
+            for node in range(len(self.due)):
+                if self.due[node]:
+                    self._improve(node)
+            if len(self.steps) == before:
                 return 0
             key = self._key()
             if key in seen:
@@ -169,22 +174,31 @@ class _Run:
         return self.nodes.tobytes() + canonical(self.elements).tobytes()
 
     def _improve(self, node):
-        """Steps 2 (a) to (c) of the algorithm; returns whether the patch was changed."""
+        """Steps 2 (a) to (c) of the algorithm."""
         patch = self.objective.patch(self.nodes, self.elements, self.values, node)
         found = [getattr(patch, {"swap": "swapped", "move": "moved"}[way])() for way in self.ways]
         gains = [patch.error - changed.error for changed in found]
         k = int(np.argmax(gains))
-        if gains[k] <= max(self.least, ROUNDING * patch.error):
-            return False
+        self.due[node] = gains[k] > max(self.least, ROUNDING * patch.error)
+        if not self.due[node]:
+            return
         self._take(found[k])
         after = self.objective.of(Mesh._trusted(self.nodes.copy(), self.elements.copy()))
         self.steps.append((self.count, node, self.ways[k], gains[k], after))
-        return True
 
     def _take(self, patch):
         self.elements[patch.rows] = patch.own
         centre = patch.used[patch.centre]
         self.nodes[centre], self.values[centre] = patch.nodes[patch.centre], patch.values[patch.centre]
+        self._wake(patch.own)
+
+    def _wake(self, changed):
+        """Patches whose costs depend on elements that changed are due again."""
+        if self.objective.criterion.on != "element":
+            here = np.zeros(len(self.nodes), dtype=bool)
+            here[changed] = True
+            changed = self.elements[here[self.elements].any(axis=1)]
+        self.due[changed] = self.inside[changed]
 
     def untouched(self, mesh):
         """Green pairs whose elements are still in their rows."""
