@@ -1,6 +1,7 @@
 """Data-dependent triangulation: nodal values in, a better triangulation out."""
-from . import criteria, problems
+from . import criteria, curves, problems
 from .approximation import approximate
+from .combined import combined
 from .delaunay import delaunay
 from .errors import Interrupted, MeshError
 from .interpolant import Interpolant
@@ -8,7 +9,7 @@ from .mesh import Mesh
 from .movement import smoothed
 from .optima import local_optima
 from .optimal import optimal
-from .quality import quality
+from .quality import quality, uniformity, valence
 from .refinement import refined
 from .springs import DataSprings
 from .swapping import swapped
@@ -16,5 +17,6 @@ from .swapping import swapped
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "criteria",
-           "delaunay", "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped"]
+__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "combined",
+           "criteria", "curves", "delaunay", "local_optima", "optimal", "problems", "quality", "refined",
+           "smoothed", "swapped", "uniformity", "valence"]

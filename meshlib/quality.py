@@ -1,4 +1,4 @@
-"""Geometric quality of a mesh (section 4.5.2) as the thesis's tables print it."""
+"""Geometric quality of a mesh: as the thesis's tables print it (section 4.5.2), and more (7.2)."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -98,6 +98,63 @@ def _angles(x, y):
     ux, uy, vx, vy = x[NEXT] - x, y[NEXT] - y, x[PREVIOUS] - x, y[PREVIOUS] - y
     cross = ux * vy - uy * vx
     return np.arctan2(np.abs(cross), ux * vx + uy * vy), cross, ux ** 2 + uy ** 2
+
+
+def uniformity(mesh):
+    """How much the area of each element differs from those of its neighbours.
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    (T,) ndarray of float64
+        The largest ratio, larger to smaller area, of an element and another that shares an
+        edge with it (section 7.2); 1 if all are alike, or if there is no other.
+
+    Raises
+    ------
+    MeshError
+        If the mesh is not valid.
+
+    Examples
+    --------
+    >>> from meshlib import Mesh
+    >>> uniformity(Mesh([[0, 0], [1, 0], [0, 1], [3, 3]], [[0, 1, 2], [1, 3, 2]])).tolist()
+    [5.0, 5.0]
+    """
+    mesh = a_mesh(mesh)
+    there = np.where(mesh.neighbours >= 0, mesh.areas[mesh.neighbours], mesh.areas[:, None])
+    ratio = mesh.areas[:, None] / there
+    return np.maximum(ratio, 1 / ratio).max(axis=1)
+
+
+def valence(mesh):
+    """Number of elements that have each node in common (section 7.2).
+
+    Parameters
+    ----------
+    mesh : Mesh
+
+    Returns
+    -------
+    (N,) ndarray of int64
+        Of sum 3 T, whatever the mesh.
+
+    Raises
+    ------
+    MeshError
+        If the mesh is not valid.
+
+    Examples
+    --------
+    >>> from meshlib import delaunay
+    >>> valence(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])).tolist()
+    [2, 1, 2, 1]
+    """
+    mesh = a_mesh(mesh)
+    return np.bincount(mesh.elements.ravel(), minlength=mesh.n_nodes)
 
 
 def angles(corners):

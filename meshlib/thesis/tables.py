@@ -94,8 +94,7 @@ def _cells(board):
 
 def _numbered(table):
     body = grid(HEAD, _rows(table))
-    name = f"tab-{table.replace('.', '-')}"
-    return markdown(f"```{{table}} {CAPTIONS[table]}\n:name: {name}\n:align: center\n\n{body}\n```")
+    return numbered(f"tab-{table.replace('.', '-')}", CAPTIONS[table], body)
 
 
 def _rows(table):
@@ -127,6 +126,11 @@ def grid(head, rows):
     """A table in Markdown."""
     lines = [head, ("---",) * len(head), *rows]
     return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
+
+
+def numbered(name, caption, body):
+    """A table in Markdown with a number, a caption, and a name to refer to it."""
+    return markdown(f"```{{table}} {caption}\n:name: {name}\n:align: center\n\n{body}\n```")
 
 
 def markdown(text):
