@@ -1,5 +1,6 @@
 """Data-dependent triangulation: nodal values in, a better triangulation out."""
 from . import criteria, problems
+from .annealing import annealed
 from .approximation import approximate
 from .delaunay import delaunay
 from .errors import Interrupted, MeshError
@@ -16,5 +17,5 @@ from .swapping import swapped
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "criteria", "delaunay",
+__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "annealed", "approximate", "criteria", "delaunay",
            "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped"]

@@ -73,8 +73,12 @@ class Procedure:
         -------
         Outcome
         """
-        compiled = self.norm in NORM_CODES and self.criterion.is_compiled
-        return (self._compiled if compiled else self._plain)(order, trace, schedule, watch)
+        return (self._compiled if self.is_compiled else self._plain)(order, trace, schedule, watch)
+
+    @property
+    def is_compiled(self):
+        """Whether kernels know criterion and norm."""
+        return self.norm in NORM_CODES and self.criterion.is_compiled
 
     def swapped(self, order):
         """The mesh that `run` leaves, without a record."""
@@ -86,12 +90,12 @@ class Procedure:
 
     def _compiled(self, order, trace, schedule, watch):
         from .kernels import schedules  # with numba, which takes a while to load
-        state, arguments = self._arguments()
+        state, arguments = self.arguments()
         order, tally = self._start(order)
         if trace and schedule == "sweep":
             return self._traced(schedules, order, tally, state, arguments)
         # the trace of a queue may be of any length
-        logs = _logs(self.run(order, False, schedule).tried if trace else 0)
+        logs = logs_for(self.run(order, False, schedule).tried if trace else 0)
         kernel = {"sweep": schedules.swept, "queue": schedules.drained}[schedule]
         _watched(kernel, watch, order, tally, *arguments, *logs)
         return self._outcome(state, tally, _rows(0, *logs, tally[codes.TRIES] if trace else 0))
@@ -103,14 +107,14 @@ class Procedure:
         tally[[codes.WAITING, codes.FAULT]] = len(order), -1
         return writable(np.array(order, dtype=np.int32)), writable(tally)
 
-    def _arguments(self):
+    def arguments(self):
         """A fresh copy of the state, and all that a kernel wants after order, tally and limit."""
         state = self._new_state() if self.once else tuple(array.copy() for array in self._state)
         return state, (self.criterion.code, self.criterion.pointer, NORM_CODES[self.norm], *self.tolerance,
                        self.limits.angle, 2 * self.limits.area, self._points, *state)
 
     def _traced(self, schedules, order, tally, state, arguments):
-        rows, logs, done = [], _logs(len(order)), False
+        rows, logs, done = [], logs_for(len(order)), False
         while not done:
             before = tally[codes.TRIES]
             schedules.sweep(order, tally, len(order), *arguments, *logs)
@@ -119,12 +123,7 @@ class Procedure:
         return self._outcome(state, tally, np.concatenate(rows))
 
     def _outcome(self, state, tally, trace):
-        element, half = state[0], state[3]
-        if tally[codes.FAULT] >= 0:
-            h = int(half[tally[codes.FAULT]])
-            a, b = sorted(int(element[h - h % 3 + (h + step) % 3]) for step in (1, 2))
-            raise not_a_cost(a, b)
-        elements = np.asarray(element, dtype=np.int32).reshape(-1, 3)
+        elements = elements_of(state, tally)
         return Outcome(elements, *(int(tally[k]) for k in (codes.SWAPS, codes.SWEEPS, codes.TRIES)), trace)
 
     def _plain(self, order, trace, schedule, watch):
@@ -159,6 +158,16 @@ class Procedure:
         return element, twin, slot, half, face, cost, settled
 
 
+def elements_of(state, tally):
+    """The elements of a state, or the error of a cost of one's own that is not a cost."""
+    element, half = state[0], state[3]
+    if tally[codes.FAULT] >= 0:
+        h = int(half[tally[codes.FAULT]])
+        a, b = sorted(int(element[h - h % 3 + (h + step) % 3]) for step in (1, 2))
+        raise not_a_cost(a, b)
+    return np.asarray(element, dtype=np.int32).reshape(-1, 3)
+
+
 def _watched(kernel, watch, order, tally, *arguments):
     """Run a kernel to its end, part by part if somebody watches."""
     if watch is None:
@@ -169,7 +178,7 @@ def _watched(kernel, watch, order, tally, *arguments):
         watch.report(tally[codes.PLACE] if waiting == len(order) else len(order) - waiting)
 
 
-def _logs(rows):
+def logs_for(rows):
     """Room to record so many tried swaps."""
     from .kernels.backend import writable
     return writable(np.zeros(6 * rows, dtype=np.int64)), writable(np.zeros(2 * rows))
