@@ -93,9 +93,12 @@ def _cells(board):
 
 
 def _numbered(table):
-    body = grid(HEAD, _rows(table))
-    name = f"tab-{table.replace('.', '-')}"
-    return markdown(f"```{{table}} {CAPTIONS[table]}\n:name: {name}\n:align: center\n\n{body}\n```")
+    return numbered(CAPTIONS[table], f"tab-{table.replace('.', '-')}", grid(HEAD, _rows(table)))
+
+
+def numbered(caption, name, body):
+    """A numbered table with a caption, from its rows in Markdown."""
+    return markdown(f"```{{table}} {caption}\n:name: {name}\n:align: center\n\n{body}\n```")
 
 
 def _rows(table):
