@@ -17,5 +17,6 @@ from .swapping import swapped
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "annealed", "approximate", "criteria", "delaunay",
-           "local_optima", "optimal", "problems", "quality", "refined", "smoothed", "swapped"]
+__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "annealed", "approximate",
+           "criteria", "delaunay", "local_optima", "optimal", "problems", "quality", "refined",
+           "smoothed", "swapped"]

@@ -9,7 +9,8 @@ from .swapping import prepared
 from .walking import walk_from
 
 LEVELS, TRIES = 200, 20
-HOTTEST, COLDEST = 5.0, 0.01  # in units of the median of what a swap costs at the local optimum
+HIGH = 0.9  # quantile of what a swap adds at the local optimum, where the temperature starts
+COLDEST = 1e-3  # of that, where it ends
 
 
 @dataclass(frozen=True)
@@ -72,8 +73,8 @@ def annealed(mesh, values, criterion="jnd", norm=2, seed=0, levels=LEVELS, tries
     Simulated annealing over swaps, as proposed by Schumaker (1993).  It starts where the
     local optimisation procedure ends.  An edge is drawn at random; a swap that adds d to
     the sum of costs, or of their squares, is made with probability min(1, exp(-d / t)).  The
-    temperature t falls geometrically, from five times to a hundredth of the median of
-    what the possible swaps add at the local optimum.  The procedure then runs once more,
+    temperature t falls geometrically, a thousandfold, from where it is exceeded by a tenth
+    of what the possible swaps add at the local optimum.  The procedure then runs once more,
     from the last mesh and from the best at the end of a level; the result is the best of
     three local optima, the first among them, so that it never costs more.
 
@@ -108,7 +109,7 @@ def _settled(procedure, mesh):
 def _temperatures(differences, levels):
     """Falling temperatures; none where no swap would change the cost."""
     rises = differences[differences > 0]
-    return np.geomspace(HOTTEST, COLDEST, levels) * np.median(rises) if len(rises) else np.empty(0)
+    return np.quantile(rises, HIGH) * np.geomspace(1, COLDEST, levels) if len(rises) else np.empty(0)
 
 
 def _levels(walk, temperatures, tries, n_edges, rng):

@@ -204,7 +204,8 @@ def error_far_from_boundary(rise, run):
 
 # -- other constants, other orders of steps ---------------------------------------------------------
 
-CONSTANTS = ((0, 1, 0.4), (0, 10, 0.4), (0, 100, 0.4), (0, 1000, 0.4), (100, 0, 0.4), (0, 10, 1.0), (10, 0, 1.0))
+CONSTANTS = ((0, 1, 0.4), (0, 10, 0.4), (0, 100, 0.4), (0, 1000, 0.4), (100, 0, 0.4), (0, 10, 1.0),
+             (10, 0, 1.0))  # first, second, power
 TRIAL_ANGLES = tuple(range(0, 91, 5))
 ROUNDS = (1, 2, 5)
 

@@ -7,12 +7,12 @@ from .tables import grid, numbered
 
 def slopes():
     """Exact alignment: lines of nodes, and what swapping makes of them."""
-    head = ("Slope", "Angle", "Lines apart", "Between lines", "Start", "Swapped", "Swapped, far from boundary",
-            "Skewness", "½° beside")
+    head = ("Slope", "Angle", "Lines apart", "Between lines", "Start", "Swapped",
+            "Swapped, far from boundary", "Skewness", "½° beside")
     rows = [_slope(rise, run) for rise, run in alignment.SLOPES if rise <= run]
-    caption = ("Contours along lines of lattice nodes. Distance of these lines in spacings; $L_2$ error of linear "
-               "interpolation between them, of the start mesh, after swapping, and after swapping on a finer "
-               "lattice; mean skewness after swapping there, and on average half a degree to either side.")
+    caption = ("Contours along lines of lattice nodes. Distance of these lines in spacings; $L_2$ error of "
+               "linear interpolation between them, of the start mesh, after swapping, and after that on a "
+               "finer lattice; mean skewness after swapping there, and half a degree to either side.")
     return numbered(caption, "tab-slopes", grid(head, rows))
 
 
@@ -20,7 +20,8 @@ def _slope(rise, run):
     angle = alignment.angle_of(rise, run)
     errors = (alignment.error_between_lines(rise, run), alignment.measures("start", angle)[0],
               alignment.measures("swapped", angle)[0], alignment.error_far_from_boundary(rise, run))
-    beside = [alignment.measures("swapped", angle + step)[1] for step in (-alignment.BESIDE, alignment.BESIDE)]
+    steps = -alignment.BESIDE, alignment.BESIDE
+    beside = [alignment.measures("swapped", angle + step)[1] for step in steps]
     skewness = alignment.measures("swapped", angle)[1], np.mean(beside)
     return (f"{rise}/{run}" if run > 1 else rise, f"{angle:.1f}°", f"{alignment.lines_apart(rise, run):.3f}",
             *(f"{e:.4f}" for e in errors), *(f"{s:.2f}" for s in skewness))
@@ -32,15 +33,16 @@ def strategies():
     rows = []
     for name in alignment.STRATEGIES:
         errors, skewness = alignment.curve(name)
-        rows.append((name, f"{errors.mean():.4f}", f"{errors.max():.4f}", f"{errors.max() / errors.min():.1f}",
-                     f"{skewness.mean():.2f}", f"{skewness.max():.2f}"))
+        rows.append((name, f"{errors.mean():.4f}", f"{errors.max():.4f}",
+                     f"{errors.max() / errors.min():.1f}", f"{skewness.mean():.2f}", f"{skewness.max():.2f}"))
     caption = "The ramp on the lattice, over all angles: $L_2$ error and mean skewness of the mesh."
     return numbered(caption, "tab-strategies", grid(head, rows))
 
 
 def constants():
     """What other springs reach, and springs and swaps by turns."""
-    head = ("First", "Second", "Power", "Rounds", "Springs, mean", "largest", "Springs, swapped, mean", "largest")
+    head = ("First", "Second", "Power", "Rounds", "Springs, mean", "largest", "Springs, swapped, mean",
+            "largest")
     default = next(c for c in alignment.CONSTANTS if c == (0, 100, 0.4))
     trials = [(*c, 1) for c in alignment.CONSTANTS] + [(*default, n) for n in alignment.ROUNDS[1:]]
     rows = []

@@ -244,8 +244,8 @@ def every_mesh():
     return costs, errors, reached
 
 
-def small_mesh():
-    """The corners of the square and six random nodes."""
+def small_mesh(count=SMALL_NODES, seed=SMALL_SEED):
+    """The corners of the square and random nodes, so many together."""
     from .. import delaunay
-    inside = np.random.default_rng(SMALL_SEED).random((SMALL_NODES - 4, 2))
+    inside = np.random.default_rng(seed).random((count - 4, 2))
     return delaunay(np.vstack([[[0, 0], [1, 0], [1, 1], [0, 1]], inside]))

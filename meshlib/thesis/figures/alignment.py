@@ -16,7 +16,7 @@ LEVELS = [0.1, 0.3, 0.5, 0.7, 0.9]
 BAD = 0.0  # the angle at which swapping can do nothing
 LOOKS = {"start": ("black", ":"), "swapped": ("vermillion", "-"), "springs": ("green", "-."),
          "springs, swapped": ("blue", "-"), "springs, swapped, 8°": ("sky", "--")}
-FINE_WIDTH = 0.6  # points, of the edges of crowded meshes
+CURVE_WIDTH, FINE_WIDTH = 1.6, 0.6  # points, of curves and of the edges of crowded meshes
 HEADROOM = 1.25  # above the curves, for a legend
 
 
@@ -35,7 +35,8 @@ def _over_angles(strategies):
     for name in strategies:
         colour, line = LOOKS[name]
         for ax, values in zip(axes, alignment.curve(name), strict=True):
-            ax.plot(alignment.ALL_ANGLES, values, line, color=plotting.PALETTE[colour], label=name, linewidth=1.6)
+            ax.plot(alignment.ALL_ANGLES, values, line, color=plotting.PALETTE[colour], label=name,
+                    linewidth=CURVE_WIDTH)
     _marks(axes)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(strategies))
     return figure
@@ -85,10 +86,13 @@ def _over_jitters(ax):
     """Mean over the angles, and the largest, of what each strategy leaves."""
     shares = 100 * np.array(alignment.JITTERS)
     for name in ("start", "swapped", "springs, swapped"):
-        found = [alignment.curve(name, COARSE, j, alignment.SEEDS if j else (0,))[0] for j in alignment.JITTERS]
+        found = [alignment.curve(name, COARSE, j, alignment.SEEDS if j else (0,))[0]
+                 for j in alignment.JITTERS]
         colour = plotting.PALETTE[LOOKS[name][0]]
-        ax.plot(shares, np.mean(found, axis=1), LOOKS[name][1], marker="o", markersize=4, color=colour, label=name)
-        ax.fill_between(shares, np.min(found, axis=1), np.max(found, axis=1), color=colour, alpha=0.15, linewidth=0)
+        ax.plot(shares, np.mean(found, axis=1), LOOKS[name][1], marker="o", markersize=4, color=colour,
+                label=name)
+        ax.fill_between(shares, np.min(found, axis=1), np.max(found, axis=1), color=colour, alpha=0.15,
+                        linewidth=0)
     ax.set(xlabel="jitter, per cent of the spacing", ylabel="$L_2$ error")
 
 
