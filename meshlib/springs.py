@@ -38,10 +38,10 @@ class DataSprings:
 
         k = (1 + a |u_s| / mean |u_s| + b |u_ss| / mean |u_ss|)^p
 
-    |u_s| is the difference quotient of the ends, and |u_ss| the mean of second
+    ``|u_s|`` is the difference quotient of the ends, and ``|u_ss|`` the mean of second
     differences along the edge.  *The default exponent.*  At rest in one dimension k h
     is the same for all edges of length h, and of all meshes with so many nodes that with
-    h in proportion to |u_ss|^(-2/5) has the least L2 error.
+    h in proportion to ``|u_ss|^(-2/5)`` has the least L2 error.
 
     Examples
     --------
@@ -74,7 +74,7 @@ class DataSprings:
         return (1 + self.first * steep + self.second * curved) ** self.power
 
     def derivatives(self, mesh):
-        """|u_s|, |u_ss| and the length of each edge, (E,) float64 each."""
+        """``|u_s|``, ``|u_ss|`` and the length of each edge, (E,) float64 each."""
         start, end = mesh.nodes[mesh.edges].transpose(1, 2, 0)
         share = np.linspace(0, 1, PARTS + 1)[:, None]
         x, y = start[:, None] + share * (end - start)[:, None]

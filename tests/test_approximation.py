@@ -1,5 +1,6 @@
 """Meshes made for a known function: what must hold after every step, and how near the limit they come."""
 import signal
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -7,14 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems
-from meshlib.approximation import strategy
+from meshlib.approximation import samples, sizes, strategy
 from meshlib.approximation.draft import Draft
 from meshlib.approximation.misfit import Misfit, rule
-from meshlib.approximation.moves import move
-from meshlib.sides import CORNER, INTERIOR, sides_of
+from meshlib.approximation.moves import _Sweep, move
+from meshlib.approximation.patches import _curvature
 from meshlib.approximation.swaps import swap
 from meshlib.choice import independent
 from meshlib.quality import angles
+from meshlib.sides import CORNER, INTERIOR, sides_of
 from support import lattice
 
 FRANKE = problems.functions["franke"]
@@ -217,3 +219,94 @@ def test_an_interrupt_keeps_the_mesh(monkeypatch):
     found = stop.value.result
     assert len(found.history) == 3 and found.mesh.validate().n_nodes >= 16
     assert np.array_equal(found.values, front(*found.mesh.nodes.T))
+
+
+# -- a tolerance, and samples ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 2e-3])
+def test_a_tolerance_is_reached_and_three_per_cent_fewer_nodes_miss_it(tolerance):
+    found = approximate(FRANKE, tolerance=tolerance)
+    assert found.error <= tolerance
+    assert approximate(FRANKE, int(found.mesh.n_nodes / 1.03) - 1).error > tolerance
+    assert found.evaluations > approximate(FRANKE, found.mesh.n_nodes).evaluations
+
+
+@pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("enough", [5, 31, 777, 65_000])
+def test_the_least_number_is_found_whatever_the_order_of_convergence(order, enough):
+    tried = []
+
+    def trial(nodes):
+        tried.append(nodes)
+        return SimpleNamespace(nodes=nodes, error=nodes ** -order)
+    found = sizes.least(trial, enough ** -order * (1 + 1e-12), 4, 200_000)
+    assert enough <= found.nodes <= max(enough, 1.02 * enough)
+    assert len(tried) <= 15
+
+
+def test_a_tolerance_out_of_reach_is_told():
+    assert sizes.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, 1000) is None
+
+
+def test_samples_on_a_grid_are_bilinear_between():
+    x, y = np.meshgrid(np.linspace(2, 6, 9), np.linspace(1, 3, 5))
+    between = samples.Samples(3 * x - y + x * y, (2, 1), (6, 3))
+    p, q = 2 + 4 * np.random.default_rng(1).random(50), 1 + 2 * np.random.default_rng(2).random(50)
+    assert between(p, q) == pytest.approx(3 * p - q + p * q)
+
+
+def test_samples_give_the_mesh_of_their_function():
+    ticks = np.linspace(0, 1, 401)
+    found, exact = approximate(front(*np.meshgrid(ticks, ticks)), 100), approximate(front, 100)
+    found.mesh.validate()
+    assert found.error == pytest.approx(exact.error, rel=0.1)
+    assert found.values == pytest.approx(front(*found.mesh.nodes.T), abs=2e-3)
+
+
+@pytest.mark.parametrize("arguments, message", [
+    ((front,), "nodes: nodes is None and tolerance is None; give one of them"),
+    ((front, 9, ((0, 0), (1, 1)), None, 0, False, 1.0),
+     "nodes: nodes is 9 and tolerance is 1.0; give one of them"),
+    ((front, None, ((0, 0), (1, 1)), None, 0, False, 0),
+     "tolerance: the tolerance is 0; give a number above 0"),
+    (([[1, 2], [np.nan, 4]], 9), "finite: sample (1, 0) is nan; fill it in or cut it off"),
+    (([1, 2], 9), "samples: samples have shape (2,) and dtype int64; "
+                  "give two rows and columns of real numbers at least"),
+])
+def test_what_cannot_be_asked(arguments, message):
+    *rest, tolerance = arguments if len(arguments) == 7 else (*arguments, None)
+    with pytest.raises(MeshError) as caught:
+        approximate(*rest, tolerance=tolerance)
+    assert str(caught.value) == message
+
+
+# -- what moves go by ------------------------------------------------------------------------
+
+
+def test_the_slope_of_the_error_of_a_patch_is_its_derivative(rng):
+    draft = draft_of(FRANKE, delaunay(scattered(rng, 200)))
+    sweep = _Sweep(draft)
+    nodes = next(sweep.classes())
+    nodes = nodes[draft.side[nodes] == INTERIOR]
+    patches = sweep._patches(nodes)
+    frames = 1e-3 * patches.frames(*sweep.around.of(nodes))
+    slope, _ = patches.model(frames)
+    for k in range(2):
+        ahead, behind = (patches.moved(at, FRANKE(*at.T))[0] for at in
+                         (draft.nodes[nodes] + frames[:, k], draft.nodes[nodes] - frames[:, k]))
+        assert (ahead - behind) / 2 == pytest.approx(slope[:, k], rel=1e-2, abs=1e-3 * abs(slope[:, k]).max())
+
+
+def test_the_curvature_is_that_of_a_quadratic_function():
+    y, z, hessian = np.array([[1.0, 0.2]]), np.array([[0.3, 0.9]]), np.array([[[2.0, 0.5], [0.5, -1.0]]])
+
+    def error(p):
+        edges = np.array([y[0] - p, z[0] - p, z[0] - y[0]])
+        d = np.einsum("ni,ij,nj->n", edges, hessian[0], edges)
+        area = abs((edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]) / 2)
+        return area / 720 * ((d ** 2).sum() + d.sum() ** 2)
+    h, units = 1e-3, np.eye(2)
+    expected = [[(error(h * (a + b)) - error(h * (a - b)) - error(h * (b - a)) + error(-h * (a + b))) / (4 * h * h)
+                 for b in units] for a in units]
+    assert _curvature(y, z, hessian)[0] == pytest.approx(np.array(expected), rel=1e-4)

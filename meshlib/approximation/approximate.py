@@ -1,5 +1,5 @@
 """The mesh for a known function: nodes in, the best piecewise linear function out."""
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -8,16 +8,20 @@ from ..delaunay import delaunay
 from ..errors import Interrupted, MeshError
 from ..interpolant import Interpolant
 from ..mesh import Mesh
+from ..sides import sides_of
 from ..watching import Watch
 from .collapse import collapse
 from .draft import Draft
 from .misfit import Misfit
+from .samples import Samples
+from .sizes import least
 from .strategy import steps, strategy
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
 CELLS = 3  # of the first lattice along the shorter side of a rectangle
 JITTER = 0.2  # of a cell, by which its inner nodes are moved at random
 RESOLUTION = 40  # spacings along a square as large as the domain, in which features are looked for
+FEWEST, MOST_NODES = 4, 200_000  # nodes between which a tolerance is sought
 LARGEST_MIN_ANGLE = 30.0
 LARGEST_STRETCH = 1e3  # of a rectangle
 STEP = np.dtype([("step", "U8"), ("nodes", np.int64), ("elements", np.int64), ("error", np.float64),
@@ -56,18 +60,20 @@ class Approximation:
         return Interpolant(self.mesh, self.values)
 
 
-def approximate(function, nodes, domain=UNIT_SQUARE, min_angle=None, seed=0, progress=False):
-    """The mesh with so many nodes whose interpolant is near a known function in the L2 norm.
+def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0, progress=False, *,
+                tolerance=None):
+    """The mesh of so many nodes, or of such an error, whose interpolant is nearest to a function.
 
     Nodes go in where the error is largest, out where they serve least, and move and
     change their edges to where it is least, in rounds, until little is left to gain.
 
     Parameters
     ----------
-    function : callable
-        Vectorised u(x, y), finite in the whole domain.
-    nodes : int
-        Number of nodes of the mesh.
+    function : callable, or (rows, columns) array_like of float
+        Vectorised u(x, y), finite in the whole domain; or samples on a regular grid that fills
+        the domain's box, rows from its lower to its upper side, bilinear between them.
+    nodes : int, optional
+        Number of nodes of the mesh. Give this or the tolerance.
     domain : pair of corners, or Mesh
         The rectangle from the lower left to the upper right corner, or a start mesh:
         its domain is kept, holes included; its nodes need not stay, but for those where
@@ -79,6 +85,10 @@ def approximate(function, nodes, domain=UNIT_SQUARE, min_angle=None, seed=0, pro
         Of the first nodes, which are a lattice moved at random.
     progress : bool
         Whether to show a progress bar.
+    tolerance : float, optional
+        L2 norm of the error that is to be reached with as few nodes as possible, at most
+        MOST_NODES. Meshes are made with several numbers of nodes, so that this takes a few
+        times as long.
 
     Returns
     -------
@@ -117,13 +127,50 @@ def approximate(function, nodes, domain=UNIT_SQUARE, min_angle=None, seed=0, pro
     >>> bool(Interpolant(delaunay(lattice), front).l2_error(front, "exact") > 0.06)
     True
     """
-    nodes, seed = checks.whole(nodes, 3, "nodes"), checks.whole(seed, 0, "seed")
+    seed = checks.whole(seed, 0, "seed")
     angle = checks.number(min_angle or 0, "min_angle", 0, LARGEST_MIN_ANGLE + 1e-9, "degrees from 0 to 30")
+    function = function if callable(function) else Samples(function, *_box(domain))
+    if (nodes is None) == (tolerance is None):
+        raise MeshError("nodes", f"nodes is {nodes} and tolerance is {tolerance}; give one of them")
+    if tolerance is None:
+        return _with_nodes(function, checks.whole(nodes, 3, "nodes"), domain, angle, seed, progress)
+    return _within(function, _tolerance(tolerance), domain, angle, seed, progress)
+
+
+def _with_nodes(function, nodes, domain, angle, seed, progress):
     start = _start(domain, nodes, seed)
     spacing = np.sqrt(start.domain_area) / RESOLUTION
     draft = Draft(Misfit(function, float(spacing), float(np.radians(angle))), start)
     _fit(draft, nodes)
     return _run(draft, nodes, seed, progress)
+
+
+def _within(function, tolerance, domain, angle, seed, progress):
+    spent = []
+
+    def trial(nodes):
+        found = _with_nodes(function, nodes, domain, angle, seed, progress)
+        spent.append(found.evaluations)
+        return found
+    smallest = len(sides_of(_start(domain, FEWEST, seed)).corners)
+    found = least(trial, tolerance, smallest, MOST_NODES)
+    if found is None:
+        raise MeshError("tolerance", f"the tolerance {tolerance} is not reached with {MOST_NODES} nodes; "
+                        "give a larger one")
+    return replace(found, evaluations=sum(spent))
+
+
+def _tolerance(tolerance):
+    found = checks.number(tolerance, "tolerance", 0, np.inf, "a number above 0")
+    if not found > 0:
+        raise MeshError("tolerance", f"the tolerance is {tolerance}; give a number above 0")
+    return found
+
+
+def _box(domain):
+    if isinstance(domain, Mesh):
+        return domain.nodes.min(axis=0), domain.nodes.max(axis=0)
+    return _corners(domain)
 
 
 def _run(draft, nodes, seed, progress):

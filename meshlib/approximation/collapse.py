@@ -4,6 +4,8 @@ import numpy as np
 from ..choice import independent
 from ..sides import CORNER, INTERIOR
 
+LOOKED_AT = 3  # nodes for each that is to be taken out
+TOWARDS = 3  # neighbours for each of these
 NEAR = 0.1  # of a boundary edge: the height at which a node over it may be put on it
 BETWEEN = 0.05  # of the same: how far from its ends
 
@@ -19,9 +21,9 @@ def collapse(draft, share):
          \ / \ /            \ / \ /      (drawn: i goes into j)
           *---*              *---*
     """
-    pairs = _Pairs(draft)
+    pairs, number = _Pairs(draft), int(share * draft.n_nodes)
+    pairs.keep_likely(draft, LOOKED_AT * number)
     cost, into = pairs.cheapest(draft)
-    number = int(share * draft.n_nodes)
     nodes = np.argsort(cost, kind="stable")[:number]
     nodes = nodes[np.isfinite(cost[nodes])]
     corner, row = draft.patches().of(nodes)
@@ -43,6 +45,21 @@ class _Pairs:
     def _along_side(self, draft):
         ends = np.sort(np.stack([self.i, self.j], axis=1), axis=1)
         return draft.mesh.boundary[draft.mesh.edge_numbers(ends)]
+
+    def keep_likely(self, draft, number):
+        """Of each node two neighbours towards which the function bends least, and this for so many nodes."""
+        bend = np.abs(draft.bends_of(np.stack([self.i, self.j], axis=1)))
+        order = np.lexsort((np.arange(len(bend)), bend, self.i))
+        starts = np.searchsorted(self.i[order], np.arange(draft.n_nodes))
+        rank = np.arange(len(order)) - starts[self.i[order]]
+        first = order[rank == 0]
+        area = np.bincount(draft.elements.ravel(), np.repeat(draft.mesh.areas, 3), draft.n_nodes)
+        worth = np.full(draft.n_nodes, np.inf)
+        worth[self.i[first]] = bend[first] ** 2 * area[self.i[first]]
+        few = np.zeros(draft.n_nodes, dtype=bool)
+        few[np.argsort(worth, kind="stable")[:number]] = True
+        chosen = np.sort(order[(rank < TOWARDS) & few[self.i[order]]])
+        self.i, self.j = self.i[chosen], self.j[chosen]
 
     def cheapest(self, draft):
         """For each node the least cost of drawing it into a neighbour, and that neighbour."""

@@ -14,8 +14,8 @@ them::
 import numpy as np
 
 from ..choice import independent
-from ..topology import TAILS
 from ..sides import INTERIOR
+from ..topology import TAILS
 
 WORST = 0.3  # of the largest error, from which on an element gets a node at once
 LEAST = 1e-9  # of the same, at which nothing is left that could be split

@@ -100,8 +100,16 @@ class Misfit:
         -------
         (m,) ndarray of float64
         """
+        return self._integrals(corners, values, 1, _square)[:, 0]
+
+    def moments(self, corners, values):
+        """The same, and the integrals of u_h - u times the barycentric coordinates, (m, 3)."""
+        found = self._integrals(corners, values, 4, _square_and_moments)
+        return found[:, 0], found[:, 1:]
+
+    def _integrals(self, corners, values, columns, integrand):
         areas, sides = doubled_areas(corners) / 2, squared_sides(corners)
-        found = np.full(len(corners), np.inf)
+        found = np.full((len(corners), columns), np.inf)
         allowed = self._is_allowed(corners, areas, sides)
         divided = np.where(allowed, self._divisions(areas, sides), -1)
         for kind in np.unique(divided[allowed]):
@@ -109,19 +117,18 @@ class Misfit:
             rows = np.flatnonzero(divided == kind)
             for part in np.array_split(rows, -(-len(rows) * len(weights) // POINTS_AT_ONCE)):
                 turn = _from_longest(sides[part])
-                at, nodal = _turned(corners[part], turn), _turned(values[part], turn)
-                found[part] = areas[part] * self._squares(at, nodal, points, weights)
+                miss = self._misses(_turned(corners[part], turn), _turned(values[part], turn), points)
+                found[part] = areas[part, None] * integrand(miss, points, weights, turn)
         return found
 
-    def _squares(self, corners, values, points, weights):
+    def _misses(self, corners, values, points):
         x, y = corners[..., 0] @ points.T, corners[..., 1] @ points.T
-        return (self.values(x, y) - values @ points.T) ** 2 @ weights
+        return values @ points.T - self.values(x, y)
 
     def misses(self, corners, values):
         """Points in each element, (m, q, 2), and how far u_h is from u there, (m, q)."""
         points, _ = rule(0)
-        x, y = corners[..., 0] @ points.T, corners[..., 1] @ points.T
-        return np.stack([x, y], axis=2), values @ points.T - self.values(x, y)
+        return points @ corners, self._misses(corners, values, points)
 
     def _divisions(self, areas, sides):
         """Level and halvings for each element in one number."""
@@ -138,11 +145,32 @@ class Misfit:
 
     def on_edges(self, ends, values):
         """Integral of the squared error along each edge; ends (m, 2, 2), values (m, 2)."""
-        at, weights = np.polynomial.legendre.leggauss(ALONG)
+        return self.moments_on_edges(ends, values)[0]
+
+    def moments_on_edges(self, ends, values):
+        """The same, and the integrals of u_h - u times the two hats, (m, 2)."""
+        at, weights = _gauss()
         share = np.stack([1 - at, 1 + at]) / 2
         x, y = ends[..., 0] @ share, ends[..., 1] @ share
-        squares = (self.values(x, y) - values @ share) ** 2 @ (weights / 2)
-        return squares * np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+        miss, length = values @ share - self.values(x, y), np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+        return length * (miss ** 2 @ (weights / 2)), length[:, None] * (miss @ (share * weights / 2).T)
+
+
+@cache
+def _gauss():
+    """Points and weights of Gauss on [-1, 1]."""
+    return np.polynomial.legendre.leggauss(ALONG)
+
+
+def _square(miss, points, weights, turn):
+    return (miss ** 2 @ weights)[:, None]
+
+
+def _square_and_moments(miss, points, weights, turn):
+    found = np.empty((len(miss), 4))
+    found[:, 0] = miss ** 2 @ weights
+    np.put_along_axis(found[:, 1:], turn, miss @ (points * weights[:, None]), axis=1)
+    return found
 
 
 def doubled_areas(corners):

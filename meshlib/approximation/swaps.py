@@ -5,6 +5,7 @@ from ..choice import independent
 from ..topology import quadrilaterals
 
 GAIN = 1e-9  # of the error of two elements, below which they stay
+LITTLE = 1e-6  # of the mean error of an element, below which two elements have nothing to gain
 
 
 def swap(draft, passes=30):
@@ -31,8 +32,7 @@ def _pass(draft):
            \ /                  \|/
             b                    b
     """
-    sides = draft.mesh.edge_elements
-    edges = np.flatnonzero(~draft.mesh.boundary & draft.fresh[sides].any(axis=1))
+    edges = _promising(draft)
     quads, pairs = quadrilaterals(draft.mesh, edges)
     a, b, c, d = quads.T
     first, second = np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)
@@ -43,6 +43,14 @@ def _pass(draft):
                               len(draft.elements))]
     _exchange(draft, pairs[chosen].T, (first[chosen], second[chosen]), new[:, chosen])
     return len(chosen)
+
+
+def _promising(draft):
+    """Inner edges around new elements that have an error to speak of."""
+    mesh = draft.mesh
+    edges = np.flatnonzero(~mesh.boundary & draft.fresh[mesh.edge_elements].any(axis=1))
+    old = draft.errors[mesh.edge_elements[edges]].sum(axis=1)
+    return edges[old > LITTLE * draft.errors.mean()]
 
 
 def _exchange(draft, rows, elements, errors):
