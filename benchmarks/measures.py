@@ -8,6 +8,7 @@ from importlib.util import find_spec
 import numpy as np
 
 import meshlib as ml
+from meshlib.renumbering import along_curve
 
 GRID = 1000
 SHARE = 0.1
@@ -35,6 +36,15 @@ def grid(case):
         LinearTriInterpolator(mesh, case.values)(*np.meshgrid(x, x))
     return ({"on_grid": lambda: ml.Interpolant(case.fresh(), case.values).on_grid(GRID)},
             {"matplotlib": matplotlib})
+
+
+def numbering(case):
+    """The same grid on the mesh as it is and numbered along a space-filling curve, and the numbering."""
+    placed = along_curve(case.mesh)
+    values = case.values[placed.nodes]
+    return {"grid as given": lambda: ml.Interpolant(case.fresh(), case.values).on_grid(GRID),
+            "grid along the curve": lambda: ml.Interpolant(placed.mesh, values).on_grid(GRID),
+            "along_curve": lambda: along_curve(case.fresh())}, {}
 
 
 def scattered(case):
@@ -101,5 +111,6 @@ def validation(case):
     return {"validate": lambda: ml.Mesh(case.nodes, case.mesh.elements).validate()}, {}
 
 
-MEASURES = {"swapping": swapping, "grid": grid, "scattered": scattered, "refinement": refinement,
-            "quality": quality, "smoothing": smoothing, "errors": errors, "validation": validation}
+MEASURES = {"swapping": swapping, "grid": grid, "numbering": numbering, "scattered": scattered,
+            "refinement": refinement, "quality": quality, "smoothing": smoothing, "errors": errors,
+            "validation": validation}

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from cases import Case
 from measures import MEASURES
+from meshlib.kernels import backend  # noqa: F401 (once it is loaded, small cases are compiled too)
 
 STATUS, RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")  # of Linux
 SMALL = 400  # nodes of a case that loads and compiles everything first

@@ -5,11 +5,13 @@ import numpy as np
 
 from . import checks, quadrature, strips
 from .errors import MeshError
+from .kernels import for_work
 from .location import located
 
 DEFAULT_DEGREE = 8
 ROUNDING = 8 * np.finfo(float).eps  # of a coordinate, in the places where a row cuts a side
 POINTS_AT_ONCE = 100_000  # of quadrature, which keeps them in nearby memory
+STEPS_OF_AN_ELEMENT, POINTS_IN_A_STEP = 5, 8  # of plain Python, when a grid is filled
 FILLED = 1e-9  # how far, relatively, the domain may fall short of its bounding box
 
 
@@ -96,12 +98,12 @@ class Interpolant:
 
     def _raster(self, low, high, nx, ny):
         """Values on the grid from low to high."""
-        from .kernels import raster
-        from .kernels.backend import readable, writable
+        kernels = for_work(STEPS_OF_AN_ELEMENT * self.mesh.n_elements + nx * ny // POINTS_IN_A_STEP)
+        raster, readable = kernels.raster, kernels.backend.readable
         step = (high - low) / (nx - 1, ny - 1)
         unit = np.abs([low, high]).max()
         slack = raster.SLACK + ROUNDING * (np.abs([low, high]).max(axis=0) / step).max()
-        grid = writable(np.full(nx * ny, np.nan))
+        grid = kernels.backend.writable(np.full(nx * ny, np.nan))
         raster.filled(grid, nx, ny, *map(float, (*low, *1 / step, slack, unit)),
                       readable(self.mesh.elements), readable(self.mesh.nodes), readable(self.values))
         return np.reshape(grid, (ny, nx))

@@ -5,6 +5,7 @@ import numpy as np
 
 from . import checks
 from .errors import MeshError
+from .kernels import for_work
 from .mesh import Mesh
 from .sides import sides_of
 from .topology import HEADS, TAILS, around_nodes, grouped
@@ -13,6 +14,7 @@ from .validation import halved
 MOST_SWEEPS = 1000
 STILL = 1e-9  # movement, relative to the extent of the domain, that ends the iteration
 HALVINGS = 20  # of a step by springs that follow the data
+STEPS = 3  # of plain Python, to move a node once
 FREE = (0.0, 0.0, 0.0, 0.0)  # the rail of a node that is on none
 
 
@@ -92,12 +94,12 @@ def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=ST
     """
     mesh = checks.a_mesh(mesh)
     constants = springs(mesh) if callable(springs) else springs
-    patches = _Patches(mesh, sliding, _spring_constants(mesh, constants))
     area = _limit(min_area, "min_area")
     low, high = mesh.box
     still = _limit(tolerance, "tolerance") * (high - low).max()
     sweeps = checks.whole(sweeps, 1, "sweeps")
     halvings = checks.whole(HALVINGS * callable(springs) if halvings is None else halvings, 0, "halvings")
+    patches = _Patches(mesh, sliding, _spring_constants(mesh, constants), sweeps)
     for count in range(1, sweeps + 1):  # noqa: B007 (the result tells how many it took)
         if callable(springs) and count > 1:
             patches.follow(springs)
@@ -131,11 +133,13 @@ def _spring_constants(mesh, springs):
 class _Patches:
     """The nodes that may move, with their springs and elements in compressed rows."""
 
-    def __init__(self, mesh, sliding, constants):
-        from .kernels.backend import flat
-        self._mesh, self._place = mesh, flat(mesh.nodes)
+    def __init__(self, mesh, sliding, constants, sweeps):
         rails = _rails(mesh) if sliding else np.tile(FREE, (mesh.n_nodes, 1))
         centres = np.flatnonzero(~mesh.boundary_nodes | rails.any(axis=1))
+        likely = min(sweeps, len(centres))  # what one node does takes as long to reach the others
+        self._kernels = for_work(STEPS * likely * len(centres))
+        flat = self._kernels.backend.flat
+        self._mesh, self._place = mesh, flat(mesh.nodes)
         head, self._by_tail, edge_starts = around_nodes(mesh.edges, mesh.n_nodes)
         by_corner, element_starts = grouped(mesh.elements.ravel(), mesh.n_nodes)
         second, third = (mesh.elements[:, turn].ravel().take(by_corner) for turn in (TAILS, HEADS))
@@ -144,8 +148,7 @@ class _Patches:
         self._pull(constants)
 
     def _pull(self, constants):
-        from .kernels.backend import flat
-        self._constants = flat(np.tile(constants, 2).take(self._by_tail))
+        self._constants = self._kernels.backend.flat(np.tile(constants, 2).take(self._by_tail))
 
     def follow(self, springs):
         """Ask for the constants of the springs anew, on the mesh as it is."""
@@ -155,8 +158,8 @@ class _Patches:
 
     def sweep(self, halvings, least):
         """Move every node once; the largest movement, and how many moves were refused."""
-        from .kernels import springs as kernel
-        return kernel.sweep(*self._springs, self._constants, *self._elements, halvings, least, self._place)
+        return self._kernels.springs.sweep(*self._springs, self._constants, *self._elements,
+                                           halvings, least, self._place)
 
     @property
     def nodes(self):

@@ -9,7 +9,7 @@ import numpy as np
 
 from .criteria import Criterion
 from .errors import not_a_cost
-from .kernels import codes
+from .kernels import codes, for_work
 from .mesh import Mesh
 from .norms import norm_of
 from .topology import from_smallest, half_edges
@@ -18,6 +18,7 @@ TRACE = np.dtype([("sweep", np.int32), ("edge", np.int32), ("a", np.int32), ("b"
                   ("c", np.int32), ("d", np.int32), ("accepted", bool),
                   ("old", np.float64), ("new", np.float64)])
 NORM_CODES = {1: codes.SUM, 2: codes.SQUARES, "max": codes.MAXIMUM}
+STEPS = 25  # of plain Python, from the first look at an edge to the last
 UNLIMITED = np.iinfo(np.int64).max // 2
 
 
@@ -89,36 +90,29 @@ class Procedure:
         return norm_of(self.criterion.costs(mesh, self.values), self.norm)
 
     def _compiled(self, order, trace, schedule, watch):
-        from .kernels import schedules  # with numba, which takes a while to load
-        state, arguments = self.arguments()
-        order, tally = self._start(order)
+        kernels = for_work(STEPS * len(order))  # a cost of one's own has loaded the compiled
+        state, arguments = self.arguments(kernels)
+        order, tally = _start(order, kernels)
         if trace and schedule == "sweep":
-            return self._traced(schedules, order, tally, state, arguments)
+            return self._traced(kernels, order, tally, state, arguments)
         # the trace of a queue may be of any length
-        logs = logs_for(self.run(order, False, schedule).tried if trace else 0)
-        kernel = {"sweep": schedules.swept, "queue": schedules.drained}[schedule]
+        logs = logs_for(self.run(order, False, schedule).tried if trace else 0, kernels)
+        kernel = {"sweep": kernels.schedules.swept, "queue": kernels.schedules.drained}[schedule]
         _watched(kernel, watch, order, tally, *arguments, *logs)
         return self._outcome(state, tally, _rows(0, *logs, tally[codes.TRIES] if trace else 0))
 
-    def _start(self, order):
-        """Order and tally of a run that has done nothing yet."""
-        from .kernels.backend import writable
-        tally = np.zeros(codes.FAULT + 1, dtype=np.int64)
-        tally[[codes.WAITING, codes.FAULT]] = len(order), -1
-        return writable(np.array(order, dtype=np.int32)), writable(tally)
-
-    def arguments(self):
+    def arguments(self, kernels):
         """A fresh copy of the state, and all that a kernel wants after order, tally and limit."""
-        state = self._new_state() if self.once else tuple(array.copy() for array in self._state)
+        points, state = self._prepared(kernels)
         return state, (self.criterion.code, self.criterion.pointer, NORM_CODES[self.norm], *self.tolerance,
-                       self.limits.angle, 2 * self.limits.area, self._points, *state)
+                       self.limits.angle, 2 * self.limits.area, points, *state)
 
-    def _traced(self, schedules, order, tally, state, arguments):
-        rows, logs, done = [], logs_for(len(order)), False
+    def _traced(self, kernels, order, tally, state, arguments):
+        rows, logs, done = [], logs_for(len(order), kernels), False
         while not done:
             before = tally[codes.TRIES]
-            schedules.sweep(order, tally, len(order), *arguments, *logs)
-            done = schedules.is_last(tally)
+            kernels.schedules.sweep(order, tally, len(order), *arguments, *logs)
+            done = kernels.schedules.is_last(tally)
             rows.append(_rows(len(rows) + 1, *logs, tally[codes.TRIES] - before))
         return self._outcome(state, tally, np.concatenate(rows))
 
@@ -134,28 +128,40 @@ class Procedure:
         return Outcome(_in_rows(elements, self.mesh), swaps, sweeps, len(tried), np.array(tried, dtype=TRACE))
 
     @cached_property
-    def _points(self):
-        """The points x, y, u, as the kernel wants them."""
-        from .kernels.backend import readable
-        return readable(np.column_stack([self.mesh.nodes, self.values]))
+    def _kept(self):
+        return {}  # what has been prepared, by the backend whose form it has
 
-    @cached_property
-    def _state(self):
-        return self._new_state()
+    def _prepared(self, kernels):
+        """The points x, y, u, and the state before the first swap, which is the caller's to change."""
+        if self.once:
+            return self._new(kernels)
+        name = kernels.backend.NAME
+        if name not in self._kept:
+            self._kept[name] = self._new(kernels)
+        points, state = self._kept[name]
+        return points, tuple(array.copy() for array in state)
 
-    def _new_state(self):
-        """All that the kernel changes, before the first swap: the mesh, its planes and costs."""
-        from .kernels import lop, setup
-        from .kernels.backend import flat, writable
-        mesh, code = self.mesh, self.criterion.code
-        element, (twin, slot, half) = flat(mesh.elements), half_edges(mesh.element_edges, mesh.n_edges)
+    def _new(self, kernels):
+        """The points, and all that a kernel changes: the mesh, its planes and costs."""
+        mesh, code, writable = self.mesh, self.criterion.code, kernels.backend.writable
+        points = kernels.backend.readable(np.column_stack([mesh.nodes, self.values]))
+        element = kernels.backend.flat(mesh.elements)
+        twin, slot, half = half_edges(mesh.element_edges, mesh.n_edges, kernels)
         face = writable(np.empty(3 * mesh.n_elements))
         cost = writable(np.zeros(mesh.n_edges))
         settled = writable(np.full(mesh.n_edges, codes.UNKNOWN, dtype=np.int8))
-        setup.faces(element, self._points, face)
+        kernels.setup.faces(element, points, face)
         if code < codes.SMALLEST_ANGLE:
-            lop.first_costs(code, self.criterion.pointer, self._points, element, twin, half, face, cost)
-        return element, twin, slot, half, face, cost, settled
+            kernels.lop.first_costs(code, self.criterion.pointer, points, element, twin, half, face, cost)
+        return points, (element, twin, slot, half, face, cost, settled)
+
+
+def _start(order, kernels):
+    """Order and tally of a run that has done nothing yet."""
+    tally = np.zeros(codes.FAULT + 1, dtype=np.int64)
+    tally[[codes.WAITING, codes.FAULT]] = len(order), -1
+    writable = kernels.backend.writable
+    return writable(np.array(order, dtype=np.int32)), writable(tally)
 
 
 def elements_of(state, tally):
@@ -178,9 +184,9 @@ def _watched(kernel, watch, order, tally, *arguments):
         watch.report(tally[codes.PLACE] if waiting == len(order) else len(order) - waiting)
 
 
-def logs_for(rows):
+def logs_for(rows, kernels):
     """Room to record so many tried swaps."""
-    from .kernels.backend import writable
+    writable = kernels.backend.writable
     return writable(np.zeros(6 * rows, dtype=np.int64)), writable(np.zeros(2 * rows))
 
 

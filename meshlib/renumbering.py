@@ -6,6 +6,7 @@ import numpy as np
 
 from . import curve
 from .errors import MeshError, not_a_cost
+from .kernels import for_work
 from .mesh import Mesh
 from .procedure import Procedure
 
@@ -31,8 +32,7 @@ class Renumbered:
 
     def restored(self, elements):
         """Elements in the numbering and the rows of the mesh given."""
-        from .kernels import setup
-        return _renamed(setup.scattered, elements, self.elements, self.nodes)
+        return _renamed("scattered", elements, self.elements, self.nodes)
 
 
 def along_curve(mesh):
@@ -46,21 +46,20 @@ def along_curve(mesh):
     >>> bool((found.restored(found.mesh.elements) == start.elements).all())
     True
     """
-    from .kernels import setup
     place = _places(mesh)
     nodes = np.argsort(place, kind="stable")
     elements = np.argsort(place[mesh.elements[:, 0]], kind="stable")
     number = np.empty(mesh.n_nodes, dtype=np.int32)
     number[nodes] = np.arange(mesh.n_nodes, dtype=np.int32)
-    rows = _renamed(setup.gathered, mesh.elements, elements, number)
+    rows = _renamed("gathered", mesh.elements, elements, number)
     return Renumbered(Mesh._trusted(np.take(mesh.nodes, nodes, axis=0), rows), nodes, elements)
 
 
 def _renamed(kernel, elements, row, number):
-    """Elements in other rows, with other numbers for their nodes."""
-    from .kernels.backend import readable, writable
-    found = writable(np.empty(elements.size, dtype=np.int32))
-    kernel(*map(readable, (elements, row, number)), found)
+    """Elements in other rows, with other numbers for their nodes, by the kernel of that name."""
+    kernels = for_work(elements.size)
+    found = kernels.backend.writable(np.empty(elements.size, dtype=np.int32))
+    getattr(kernels.setup, kernel)(*map(kernels.backend.readable, (elements, row, number)), found)
     return np.asarray(found, dtype=np.int32).reshape(-1, 3)
 
 

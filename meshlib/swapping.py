@@ -131,8 +131,9 @@ def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, m
     order compares costs rounded to multiples of ``a`` instead.
 
     Built-in edge and angle criteria, `criteria.pointwise` ones and the min-error
-    criterion run in kernels, compiled where numba is installed; the lexicographic order
-    and vectorised costs of one's own run in a slower form in Python.
+    criterion run in kernels, compiled where numba is installed, as soon as there is so
+    much to do that loading numba pays; the lexicographic order and vectorised costs of
+    one's own run in a slower form in Python.
 
     *The default schedule* is that of the thesis, for every mesh: what comes out must
     not depend on how large the mesh is.  Choose ``"queue"`` for large ones: nodes are

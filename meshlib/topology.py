@@ -68,17 +68,16 @@ def neighbours(element_edges, edge_elements):
     return np.where(pairs[..., 0] == own, pairs[..., 1], pairs[..., 0])
 
 
-def half_edges(element_edges, n_edges):
+def half_edges(element_edges, n_edges, kernels):
     """Twin and edge of each half-edge, and one half-edge of each edge.
 
     Half-edge 3 t + k is the side of element t opposite its node k; its twin is the same
     side seen from the neighbour, or -1.  Flat, as kernels want them, and theirs to change.
     """
-    from .kernels import setup
-    from .kernels.backend import flat, writable
-    slot = flat(element_edges)
-    twin, half = (writable(np.full(n, setup.NOWHERE, dtype=np.int32)) for n in (element_edges.size, n_edges))
-    setup.twins(slot, twin, half)
+    slot, nowhere = kernels.backend.flat(element_edges), kernels.setup.NOWHERE
+    twin, half = (kernels.backend.writable(np.full(n, nowhere, dtype=np.int32))
+                  for n in (element_edges.size, n_edges))
+    kernels.setup.twins(slot, twin, half)
     return twin, slot, half
 
 

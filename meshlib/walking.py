@@ -1,7 +1,7 @@
 """Swaps one by one, of which some may raise the cost: steps among the meshes of given nodes."""
 import numpy as np
 
-from .kernels import codes
+from .kernels import COMPILED, codes
 from .mesh import Mesh
 from .procedure import elements_of, logs_for
 
@@ -16,26 +16,25 @@ class _Compiled:
 
     def __init__(self, procedure):
         self._mesh = procedure.mesh
-        self._state, self._arguments = procedure.arguments()
+        self._state, self._arguments = procedure.arguments(COMPILED)  # many levels are worth loading it
         self._tally = np.array([0] * codes.FAULT + [-1])
 
     def go(self, edges, rises):
         """Inspect edges, and swap where the sum of costs, or of their squares, rises by less than given."""
-        self._go(edges, rises, logs_for(0))
+        self._go(edges, rises, logs_for(0, COMPILED))
 
     def differences(self):
         """What each possible swap would add to that sum."""
         count = self._mesh.n_edges
-        logs = logs_for(count)
+        logs = logs_for(count, COMPILED)
         self._go(np.arange(count), np.full(count, -np.inf), logs)
         old, new = np.reshape(logs[1], (-1, 2)).T
         return (new - old)[np.reshape(logs[0], (-1, 6))[:, 1:3].any(axis=1)]
 
     def _go(self, edges, rises, logs):
-        from .kernels import schedules
-        from .kernels.backend import readable, writable
-        tally = writable(self._tally)
-        schedules.walked(readable(edges.astype(np.int32)), readable(rises), tally, *self._arguments, *logs)
+        readable, tally = COMPILED.backend.readable, COMPILED.backend.writable(self._tally)
+        COMPILED.schedules.walked(readable(edges.astype(np.int32)), readable(rises), tally,
+                                  *self._arguments, *logs)
         self._tally = np.asarray(tally)
 
     @property

@@ -132,6 +132,55 @@ def test_numba_and_python_agree():
         assert np.allclose(compiled[case][5:], plain[case][5:], rtol=1e-12, atol=1e-15), case
 
 
+# Which of both runs, and that it does not matter: lines of results, each with whether numba is loaded.
+FRESH = """
+import json, sys
+import numpy as np
+from meshlib import Interpolant, criteria, delaunay, problems, smoothed, swapped
+def show(r, *more):
+    t = r.trace
+    exact = [r.swaps, r.sweeps, r.tried, r.mesh.elements.tolist(), t[["edge", "a", "b", "c", "d"]].tolist()]
+    near = [r.cost_before, r.cost_after, *t["old"].tolist(), *t["new"].tolist(), *more]
+    print(json.dumps(["numba" in sys.modules, exact, near]))
+"""
+SMALL = FRESH + """
+for name in ("33", "81"):
+    mesh = problems.mesh(name)
+    for schedule in ("sweep", "queue"):
+        error = Interpolant(mesh, problems.SR2).l2_error(problems.SR2)
+        show(swapped(mesh, problems.SR2, schedule=schedule), error, *smoothed(mesh).mesh.nodes.ravel())
+"""
+LARGE = FRESH + """
+mesh = delaunay(np.random.default_rng(0).random((4100, 2)))
+show(swapped(mesh, problems.SR2))
+"""
+MANY_SMALL = FRESH + """
+from meshlib import kernels
+mesh = problems.mesh("33")
+kernels.BUDGET = 3 * 25 * mesh.n_edges  # of three runs: a result, its trace, and another result
+for order in (None, np.arange(mesh.n_edges)[::-1]):
+    show(swapped(mesh, problems.SR2, order=order))
+"""
+OWN = FRESH + """
+own = criteria.pointwise("own", "element", lambda ax, ay, au, bx, by, bu, cx, cy, cu: abs(au - bu) + abs(bu - cu))
+show(swapped(problems.mesh("33"), problems.SR2, own, norm=1))
+"""
+
+
+@pytest.mark.parametrize("program, loaded", [
+    (SMALL, [False] * 4), (LARGE, [True]), (MANY_SMALL, [False, True]), (OWN, [True])])
+def test_numba_is_loaded_where_it_pays_and_nothing_else_depends_on_it(program, loaded):
+    pytest.importorskip("numba")
+    by_itself, compiled, plain = ([json.loads(line) for line in run(program, name).stdout.splitlines()]
+                                  for name in ("auto", "numba", "python"))
+    assert [line[0] for line in by_itself] == loaded
+    assert [line[0] for line in compiled + plain] == [True] * len(loaded) + [False] * len(loaded)
+    for other in (compiled, plain):
+        for (_, exact, near), (_, same, close) in zip(by_itself, other, strict=True):
+            assert exact == same
+            assert np.allclose(near, close, rtol=1e-12, atol=1e-12)
+
+
 def test_an_unknown_backend_is_named():
     result = run("from meshlib.kernels import backend", "nuba")
     assert result.returncode == 1

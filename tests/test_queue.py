@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import MeshError, criteria, delaunay, problems, swapped
+from meshlib.kernels import for_work
 from meshlib.renumbering import along_curve
 from meshlib.topology import MANY, edge_table, half_edges
 from strategies import meshes, problems_of
@@ -115,7 +116,7 @@ def test_edges_by_counting_are_those_by_sorting(hole, rng, monkeypatch):
 
 def test_half_edges_by_hand(square):
     """Elements (0, 1, 2), (0, 2, 3): their common side is opposite node 1 of the first, node 3 of the second."""
-    twin, slot, half = (np.asarray(v) for v in half_edges(square.element_edges, square.n_edges))
+    twin, slot, half = (np.asarray(v) for v in half_edges(square.element_edges, square.n_edges, for_work(0)))
     assert twin.tolist() == [-1, 5, -1, -1, -1, 1]
     assert square.edges[slot].tolist() == [[1, 2], [0, 2], [0, 1], [2, 3], [0, 3], [0, 2]]
     assert slot[half].tolist() == list(range(5))

@@ -168,9 +168,7 @@ def _tolerance(tolerance):
 
 
 def _box(domain):
-    if isinstance(domain, Mesh):
-        return domain.nodes.min(axis=0), domain.nodes.max(axis=0)
-    return _corners(domain)
+    return domain.box if isinstance(domain, Mesh) else _corners(domain)
 
 
 def _run(draft, nodes, seed, progress):

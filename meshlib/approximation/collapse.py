@@ -47,15 +47,12 @@ class _Pairs:
         return draft.mesh.boundary[draft.mesh.edge_numbers(ends)]
 
     def keep_likely(self, draft, number):
-        """Of each node two neighbours towards which the function bends least, and this for so many nodes."""
+        """Keep so many nodes, and of each the few neighbours towards which the function bends least."""
         bend = np.abs(draft.bends_of(np.stack([self.i, self.j], axis=1)))
-        order = np.lexsort((np.arange(len(bend)), bend, self.i))
-        starts = np.searchsorted(self.i[order], np.arange(draft.n_nodes))
-        rank = np.arange(len(order)) - starts[self.i[order]]
+        order, rank = self._ranked(bend)
         first = order[rank == 0]
-        area = np.bincount(draft.elements.ravel(), np.repeat(draft.mesh.areas, 3), draft.n_nodes)
         worth = np.full(draft.n_nodes, np.inf)
-        worth[self.i[first]] = bend[first] ** 2 * area[self.i[first]]
+        worth[self.i[first]] = bend[first] ** 2 * draft.patch_sums(draft.mesh.areas)[self.i[first]]
         few = np.zeros(draft.n_nodes, dtype=bool)
         few[np.argsort(worth, kind="stable")[:number]] = True
         chosen = np.sort(order[(rank < TOWARDS) & few[self.i[order]]])
@@ -64,11 +61,17 @@ class _Pairs:
     def cheapest(self, draft):
         """For each node the least cost of drawing it into a neighbour, and that neighbour."""
         cost = self._costs(draft)
-        order = np.lexsort((np.arange(len(cost)), cost, self.i))
-        first = order[np.flatnonzero(np.diff(self.i[order], prepend=-1))]
+        order, rank = self._ranked(cost)
+        first = order[rank == 0]
         least, into = np.full(draft.n_nodes, np.inf), np.full(draft.n_nodes, -1)
         least[self.i[first]], into[self.i[first]] = cost[first], self.j[first]
         return least, into
+
+    def _ranked(self, cost):
+        """Rows node by node, the cheapest of each first, and the place of each among those of its node."""
+        order = np.lexsort((cost, self.i))
+        node = self.i[order]
+        return order, np.arange(len(order)) - np.searchsorted(node, node)
 
     def _costs(self, draft):
         """Error of the patch after less that before."""
@@ -78,8 +81,7 @@ class _Pairs:
         nodes, k, row = nodes[stays].copy(), k[stays], row[stays]
         nodes[np.arange(len(row)), k] = self.j[row]
         after = np.bincount(row, draft.error_of(nodes), len(self.i))
-        before = np.bincount(draft.elements.ravel(), np.repeat(draft.errors, 3), draft.n_nodes)
-        return after - before[self.i] + self._edge_costs(draft)
+        return after - draft.patch_sums(draft.errors)[self.i] + self._edge_costs(draft)
 
     def _edge_costs(self, draft):
         """The same along the boundary, for nodes on a side: one edge in place of two."""

@@ -4,7 +4,6 @@ import numpy as np
 from ..mesh import Mesh
 from ..sides import sides_of
 from ..topology import around_nodes, grouped
-from .misfit import doubled_areas
 
 BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
 
@@ -63,14 +62,14 @@ class Draft:
         """Weighted integral of the squared error along edges given by node numbers, (m, 2)."""
         return self.weight * self.misfit.on_edges(self.nodes[pairs], self.values[pairs])
 
-    def doubled_areas_of(self, elements):
-        """Twice the signed area of elements given by node numbers, (m, 3)."""
-        return doubled_areas(self.nodes[elements])
-
     def bends_of(self, pairs):
         """How far the function bends between two nodes: the sum at both less twice that in the middle."""
         middle = self.nodes[pairs].mean(axis=1)
         return self.values[pairs].sum(axis=1) - 2 * self.misfit.values(*middle.T.copy())
+
+    def patch_sums(self, of_elements):
+        """For each node the sum over the elements around it."""
+        return np.bincount(self.elements.ravel(), np.repeat(of_elements, 3), self.n_nodes)
 
     def edge_errors(self):
         """(T,): weighted error along the boundary edges of each element."""

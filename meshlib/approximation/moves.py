@@ -1,6 +1,7 @@
 """Nodes moved to where the error of their patch is least, by Newton's method on many patches at once."""
 import numpy as np
 
+from ..kernels import for_work
 from ..sides import CORNER
 from .patches import Patches
 
@@ -9,6 +10,7 @@ SHARES = (1.6, 0.7)  # of the step, tried one after the other: beyond the minimu
 WORTHWHILE = 1e-4  # gain foreseen, relative to the error of the patch, from which on a node is moved
 GAIN = 1e-10  # relative; smaller gains are rounding
 CURVED = 1e-3  # smallest curvature of the model, relative to its largest
+STEPS = 2  # of plain Python, to give a node its colour
 
 
 def move(draft):
@@ -33,10 +35,10 @@ class _Sweep:
 
     def classes(self):
         """The nodes that may move, one colour after the other."""
-        from ..kernels import colours  # with numba, which takes a while to load
-        from ..kernels.backend import flat
+        kernels = for_work(STEPS * self.draft.n_nodes)
+        flat = kernels.backend.flat
         colour = flat(np.full(self.draft.n_nodes, -1, dtype=np.int32))
-        colours.first_free(flat(self.around.starts), flat(self.around.numbers), colour)
+        kernels.colours.first_free(flat(self.around.starts), flat(self.around.numbers), colour)
         colour = np.where(self.draft.side != CORNER, np.asarray(colour), -1)
         return (np.flatnonzero(colour == c) for c in range(colour.max() + 1))
 

@@ -1,9 +1,9 @@
 """The one switch between numba and plain Python.
 
 The environment variable ``MESHLIB_BACKEND`` chooses: ``numba``, ``python``, or
-``auto`` (numba where it is installed).  Kernels are written once, with flat arrays
-and scalars: numba compiles them for NumPy arrays, plain Python runs them on lists,
-which it indexes several times faster than arrays.
+``auto`` (numba where it is installed, once there is enough to do, see `for_work`).
+Kernels are written once, with flat arrays and scalars: numba compiles them for NumPy
+arrays, plain Python runs them on lists, which it indexes several times faster than arrays.
 """
 import os
 
@@ -11,9 +11,12 @@ from ..checks import choice
 from ..errors import missing_extra
 
 BACKENDS = ("auto", "numba", "python")
+COMPILING = "meshlib.kernels"  # the package; its twin is `meshlib.interpreted`
 
 
 def _chosen():
+    if __package__ != COMPILING:
+        return "python", None
     wanted = choice(os.environ.get("MESHLIB_BACKEND", "auto"), BACKENDS, "MESHLIB_BACKEND")
     if wanted == "python":
         return "python", None
