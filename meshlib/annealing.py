@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from . import checks
+from .draws import Draws
 from .mesh import Mesh
 from .swapping import prepared
 from .walking import walk_from
@@ -93,7 +94,7 @@ def annealed(mesh, values, criterion="jnd", norm=2, seed=0, levels=LEVELS, tries
     local = _settled(procedure, procedure.mesh)
     walk = walk_from(replace(procedure, mesh=local))
     temperatures = _temperatures(walk.differences(), levels)
-    reached = [local, *_levels(walk, temperatures, tries, local.n_edges, np.random.default_rng(seed))]
+    reached = [local, *_levels(walk, temperatures, tries, local.n_edges, Draws(seed))]
     history = np.array([procedure.cost(found) for found in reached])
     candidates = [local, *(_settled(procedure, found) for found in (reached[history.argmin()], reached[-1]))]
     best = min(candidates, key=procedure.cost)
@@ -112,10 +113,10 @@ def _temperatures(differences, levels):
     return np.quantile(rises, HIGH) * np.geomspace(1, COLDEST, levels) if len(rises) else np.empty(0)
 
 
-def _levels(walk, temperatures, tries, n_edges, rng):
+def _levels(walk, temperatures, tries, n_edges, draws):
     """The mesh at the end of each level."""
     for temperature in temperatures:
-        edges = rng.integers(n_edges, size=tries * n_edges)
-        rises = temperature * rng.standard_exponential(len(edges))  # d < rise has probability exp(-d / t)
+        edges = draws.indices(n_edges, tries * n_edges)
+        rises = temperature * draws.exponential(len(edges))  # d < rise has probability exp(-d / t)
         walk.go(edges, rises)
         yield walk.mesh

@@ -9,6 +9,7 @@ from functools import cache, partial
 import numpy as np
 
 from .. import DataSprings, Interpolant, checks, delaunay, problems, refined, smoothed, swapped
+from ..draws import Draws
 from .measures import GRID_POINTS, L2, Remembered, measured
 
 CRITERION, NORM = "jnd", 2  # of section 5.2
@@ -92,7 +93,7 @@ def lattice(jitter=0.0, seed=0):
     start = problems.mesh("81")
     if jitter == 0:
         return start
-    steps = jitter * SPACING * np.random.default_rng(seed).uniform(-1, 1, start.nodes.shape)
+    steps = jitter * SPACING * (2 * Draws(seed).uniform(start.nodes.shape) - 1)
     return delaunay(start.nodes + steps * ((start.nodes > 0) & (start.nodes < 1)))
 
 

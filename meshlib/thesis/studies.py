@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 
 from .. import Mesh, criteria, problems
+from ..draws import Draws
 from ..enumeration import enumerated
 from ..interpolant import squared_errors
 from ..optima import LocalOptima, local_optima, order_of
@@ -247,5 +248,5 @@ def every_mesh():
 def small_mesh(count=SMALL_NODES, seed=SMALL_SEED):
     """The corners of the square and random nodes, so many together."""
     from .. import delaunay
-    inside = np.random.default_rng(seed).random((count - 4, 2))
+    inside = Draws(seed).uniform((count - 4, 2))
     return delaunay(np.vstack([[[0, 0], [1, 0], [1, 1], [0, 1]], inside]))
