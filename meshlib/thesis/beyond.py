@@ -4,21 +4,35 @@ from functools import cache
 
 import numpy as np
 
-from .. import Mesh, annealed, criteria, optimal, problems, swapped
+from .. import Mesh, annealed, criteria, local_optima, optimal, problems, swapped
 from ..enumeration import enumerated
 from .measures import l2_error
 from .studies import small_mesh
 
-SETS, NODES = 20, 10
+SETS, NODES = 15, 10
 FUNCTIONS = "SR2", "franke"
+TWELVE = "franke", 5, 12  # function, seed and number of nodes: swapping misses the best for each of `LISTED`
 L2_ERROR, DEGREE = "min-error", 20  # of the quadrature, for elements are large
-CRITERIA = (*criteria.names("edge"), *criteria.names("element"), L2_ERROR)
 NORMS = 1, 2
-LEVELS, TRIES = 40, 10  # of annealing where there are few meshes
+NC1, ANGLES = ("jnd", "abn", "dlp", "dfp"), ("smallest-angle", "largest-angle")
+CASES = (*((name, norm) for name in (*NC1, *ANGLES) for norm in NORMS), (L2_ERROR, 2))
+LISTED = ("jnd", 2), ("abn", 1), ("dlp", 1), ("dfp", 2)  # whose costs of all meshes are shown
+LEVELS, TRIES = 20, 40  # of annealing where there are few meshes
 SAME = 1e-9  # relative difference of costs that are the same
-LARGE = (("33", "SR1"), ("33", "SR2"), ("81", "SR3"), ("81", "franke"))
-LARGE_CRITERIA = ("jnd", 2), ("abn", 1)
+LARGE = (("33", "SR2", "jnd", 2), ("33", "SR2", "abn", 1), ("81", "SR3", "jnd", 2), ("81", "SR3", "abn", 1),
+         ("81", "franke", "abn", 1))  # proofs take seconds
 SEEDS = range(5)
+ORDERS = 1000
+
+
+def title(name, norm):
+    """A criterion for people, for example ``"JND-$L_2$"``."""
+    if name == L2_ERROR:
+        return "$L_2$ error"
+    return f"{name.upper()}-$L_{norm}$" if name in NC1 else f"{name.replace('-', ' ')}, $L_{norm}$"
+
+
+# -- all meshes of few nodes -------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -34,13 +48,13 @@ class Distances:
     swapped: np.ndarray
     annealed: np.ndarray
 
-    def ratios(self, way):
-        """Cost over that of the best mesh, for ``"swapped"`` or ``"annealed"``."""
-        return getattr(self, way) / self.best
+    def excess(self, way):
+        """How much ``"swapped"`` or ``"annealed"`` costs more than the best mesh, relative to that."""
+        return np.maximum(getattr(self, way) / self.best - 1, 0)
 
     def share(self, way):
         """Share of the cases in which the best mesh is found."""
-        return float((self.ratios(way) <= 1 + SAME).mean())
+        return float((self.excess(way) <= SAME).mean())
 
 
 def criterion_of(name, function):
@@ -49,9 +63,9 @@ def criterion_of(name, function):
 
 
 @cache
-def small_case(seed):
+def small_case(seed, nodes=NODES):
     """A Delaunay mesh of few random nodes, and all its meshes side by side."""
-    start = small_mesh(NODES, seed)
+    start = small_mesh(nodes, seed)
     return start, side_by_side(start, enumerated(start))
 
 
@@ -79,13 +93,29 @@ def costs_of_parts(start, every, values, criterion, norm):
 
 
 @cache
+def listed(name, norm, function, seed, nodes=NODES):
+    """The costs of all meshes of a small set of nodes, the start mesh first, and what annealing makes of it.
+
+    Returns
+    -------
+    costs : (M,) ndarray of float64
+    run : Annealing
+    """
+    start, every = small_case(seed, nodes)
+    u = problems.functions[function]
+    criterion = criterion_of(name, u)
+    costs = costs_of_parts(start, every, u(*start.nodes.T), criterion, norm)
+    return costs, annealed(start, u, criterion, norm, seed, LEVELS, TRIES)
+
+
+@cache
 def distances(name, norm, sets=SETS):
     """What swapping and annealing reach on small sets of nodes, beside the best of all meshes.
 
     Parameters
     ----------
     name : str
-        One of `CRITERIA`.
+        Of a criterion, or `L2_ERROR`.
     norm : {1, 2}
     sets : int
 
@@ -93,16 +123,17 @@ def distances(name, norm, sets=SETS):
     -------
     Distances
     """
-    rows = []
-    for function in FUNCTIONS:
-        u = problems.functions[function]
-        criterion = criterion_of(name, u)
-        for seed in range(sets):
-            start, every = small_case(seed)
-            best = costs_of_parts(start, every, u(*start.nodes.T), criterion, norm).min()
-            found = annealed(start, u, criterion, norm, seed, LEVELS, TRIES)
-            rows.append((best, found.cost_swapped, found.cost_after))
+    found = [listed(name, norm, function, seed) for function in FUNCTIONS for seed in range(sets)]
+    rows = [(costs.min(), run.cost_swapped, run.cost_after) for costs, run in found]
     return Distances(*np.transpose(rows))
+
+
+def numbers_of_meshes():
+    """(sets,) int64: how many meshes each small set of nodes has."""
+    return np.array([len(listed(*LISTED[0], FUNCTIONS[0], seed)[0]) for seed in range(SETS)])
+
+
+# -- more nodes ----------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -111,28 +142,43 @@ class Large:
 
     Attributes
     ----------
-    start, swapped, best : float
-        Costs; the last is proved to be the least.
+    start, swapped, orders, best : float
+        Costs: of the start mesh, after swapping in natural order, the least of `ORDERS`
+        random orders, and the proved least of all meshes.
     annealed : (n,) ndarray of float64
         Costs, one for each seed.
-    error_swapped, error_annealed : float
+    error_swapped, error_annealed, error_best : float
         L2 errors; the second of the mesh of the first seed of least cost.
     """
 
     start: float
     swapped: float
-    annealed: np.ndarray
+    orders: float
     best: float
+    annealed: np.ndarray
     error_swapped: float
     error_annealed: float
+    error_best: float
+
+
+@cache
+def annealing(nodes, function, name, norm, seed):
+    """Annealing on a start mesh of the thesis."""
+    return annealed(problems.mesh(nodes), problems.functions[function], name, norm, seed)
+
+
+def in_natural_order(nodes, function, name, norm):
+    """The mesh that swapping alone leads to, where annealing starts."""
+    return swapped(problems.mesh(nodes), problems.functions[function], name, norm).mesh
 
 
 @cache
 def large(nodes, function, name, norm):
-    """Swapping and annealing on a start mesh of the thesis."""
+    """Swapping, annealing and proof on a start mesh of the thesis."""
     mesh, u = problems.mesh(nodes), problems.functions[function]
-    runs = [annealed(mesh, u, name, norm, seed) for seed in SEEDS]
-    best = min(runs, key=lambda run: run.cost_after)
-    errors = (l2_error(found.mesh, u) for found in (swapped(mesh, u, name, norm), best))
-    return Large(best.cost_before, best.cost_swapped, np.array([run.cost_after for run in runs]),
-                 optimal(mesh, u, name, norm).cost, *errors)
+    runs = [annealing(nodes, function, name, norm, seed) for seed in SEEDS]
+    least = min(runs, key=lambda run: run.cost_after)
+    proved, many = optimal(mesh, u, name, norm), local_optima(mesh, u, name, norm, ORDERS)
+    meshes = in_natural_order(nodes, function, name, norm), least.mesh, proved.mesh
+    return Large(least.cost_before, least.cost_swapped, many.costs.min(), proved.cost,
+                 np.array([run.cost_after for run in runs]), *(l2_error(found, u) for found in meshes))
