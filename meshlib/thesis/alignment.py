@@ -111,14 +111,14 @@ def only_swapped(mesh, u, min_angle=None):
     return swapped(mesh, u, CRITERION, NORM, order, min_angle).mesh
 
 
-def only_moved(mesh, u, sliding=True):
+def only_moved(mesh, u, sliding=True, **constants):
     """Springs that follow the data, brought to rest."""
-    return smoothed(mesh, DataSprings(u), tolerance=SETTLED, sliding=sliding).mesh
+    return smoothed(mesh, DataSprings(u, **constants), tolerance=SETTLED, sliding=sliding).mesh
 
 
-def moved_and_swapped(mesh, u, sliding=True, min_angle=None):
+def moved_and_swapped(mesh, u, sliding=True, min_angle=None, **constants):
     """Springs that follow the data, then edges swapped."""
-    return only_swapped(only_moved(mesh, u, sliding), u, min_angle)
+    return only_swapped(only_moved(mesh, u, sliding, **constants), u, min_angle)
 
 
 STRATEGIES = {
@@ -223,8 +223,7 @@ def trial(first, second, power, rounds=1):
     for degrees in TRIAL_ANGLES:
         u, mesh = _remembered(degrees), lattice()
         for _ in range(rounds):
-            springs = DataSprings(Ramp(degrees), first, second, power)
-            moved = smoothed(mesh, springs, tolerance=SETTLED, sliding=True).mesh
+            moved = only_moved(mesh, Ramp(degrees), first=first, second=second, power=power)
             mesh = only_swapped(moved, Ramp(degrees))
         rows.append([measured(m, u)[L2] for m in (moved, mesh)])
     return np.array(rows)
@@ -232,11 +231,12 @@ def trial(first, second, power, rounds=1):
 
 ELSEWHERE = (("SR1", "81"), ("SR2", "81"), ("SR3", "81"), ("SR1", "33"), ("SR2", "33"), ("franke", "81"),
              ("DD1", "33-refined"))
-PLAIN = "start", "swapped", "springs", "springs, swapped"
+WEIGHTS = 1, 10, 100  # of the second derivative
 
 
 @cache
 def elsewhere(function, nodes):
-    """L2 errors of the `PLAIN` strategies on a problem of the thesis."""
+    """L2 errors on a problem of the thesis: start, swapped, and with springs of these `WEIGHTS` before."""
     u, mesh = problems.functions[function], problems.mesh(nodes)
-    return tuple(measured(STRATEGIES[strategy](mesh, u), u)[L2] for strategy in PLAIN)
+    meshes = mesh, only_swapped(mesh, u), *(moved_and_swapped(mesh, u, second=weight) for weight in WEIGHTS)
+    return tuple(measured(found, u)[L2] for found in meshes)

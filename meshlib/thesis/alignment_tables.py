@@ -27,6 +27,23 @@ def _slope(rise, run):
             *(f"{e:.4f}" for e in errors), *(f"{s:.2f}" for s in skewness))
 
 
+def repair():
+    """What springs before swapping repair where contours follow lines of nodes."""
+    head = ("Angle", "$L_2$ swapped", "springs", "springs, swapped", "ratio", "Skewness swapped", "springs",
+            "springs, swapped")
+    rows = [_repair(alignment.angle_of(rise, run)) for rise, run in alignment.SLOPES]
+    caption = ("Contours along lines of lattice nodes: $L_2$ error and mean skewness after swapping, after "
+               "springs, and after both; the ratio is that of the errors without and with springs.")
+    return numbered(caption, "tab-repair", grid(head, rows))
+
+
+def _repair(angle):
+    names = "swapped", "springs", "springs, swapped"
+    errors, skewness = np.transpose([alignment.measures(name, angle) for name in names])
+    return (f"{angle:.1f}°", *(f"{e:.4f}" for e in errors), f"{errors[0] / errors[-1]:.1f}",
+            *(f"{s:.2f}" for s in skewness))
+
+
 def strategies():
     """What each strategy reaches over all angles."""
     head = ("", "$L_2$ mean", "largest", "largest / least", "Skewness mean", "largest")
@@ -55,8 +72,9 @@ def constants():
 
 
 def elsewhere():
-    """The same springs on the problems of the thesis."""
+    """Springs before swapping on the problems of the thesis."""
     rows = [(function, nodes, *(f"{error:.4f}" for error in alignment.elsewhere(function, nodes)))
             for function, nodes in alignment.ELSEWHERE]
-    caption = "$L_2$ error on the problems of the thesis, with the same constants."
-    return numbered(caption, "tab-elsewhere", grid(("Function", "Nodes", *alignment.PLAIN), rows))
+    head = "Function", "Nodes", "Start", "Swapped", *(f"Weight {w}, swapped" for w in alignment.WEIGHTS)
+    caption = "$L_2$ error on the problems of the thesis, for three weights of the second derivative."
+    return numbered(caption, "tab-elsewhere", grid(head, rows))

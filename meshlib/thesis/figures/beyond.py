@@ -8,7 +8,7 @@ from .. import beyond
 __all__ = ["annealed", "distances", "every_cost"]
 
 WAYS = {"start": ("black", ":"), "swapped": ("vermillion", "-"), "annealed": ("blue", "--")}
-BINS = 60
+BINS, RATIOS = 60, (1, 1.5, 2, 3, 5, 10)
 LOW, TALL = 3.1, 5.0  # inches
 LINEAR, MOST, TICKS = 1.0, 1000.0, (0, 0.5, 1, 10, 100)  # per cent: end of the linear part, and of all
 SIDES = {"swapped": -1, "annealed": 1}  # of a row
@@ -27,17 +27,21 @@ def every_cost():
         costs, run = beyond.listed(name, norm, *beyond.TWELVE)
         _histogram(ax, costs, (run.cost_before, run.cost_swapped, run.cost_after))
         fewer = np.count_nonzero(costs < run.cost_swapped * (1 - beyond.SAME))
-        ax.set_title(f"{beyond.title(name, norm)}\n{fewer} are below swapped", fontsize="small")
+        ax.set_title(f"{beyond.title(name, norm)}\n{fewer} cost less than swapped", fontsize="small")
     axes[0].set_ylabel(f"all {len(costs)} meshes")
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(WAYS))
     return figure
 
 
 def _histogram(ax, costs, ends):
-    ax.hist(costs / costs.min(), BINS, color=plotting.FAINT)
+    ratios = costs / costs.min()
+    ax.hist(ratios, np.geomspace(1, ratios.max(), BINS), color=plotting.FAINT)
     for end, (way, (colour, line)) in zip(ends, WAYS.items(), strict=True):
         ax.axvline(end / costs.min(), linestyle=line, color=plotting.PALETTE[colour], label=way)
-    ax.set(yticks=[], xlabel="cost / least cost")
+    ax.set(xscale="log", yticks=[], xlabel="cost / least cost")
+    ax.set_xticks([tick for tick in RATIOS if tick <= ratios.max()], minor=False)
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.minorticks_off()
     ax.spines[["top", "right", "left"]].set_visible(False)
 
 
@@ -46,7 +50,7 @@ def distances():
     figure, (ax,) = plotting.panels(size=TALL)
     figure.set_size_inches(plotting.WIDTH, TALL)
     for row, case in enumerate(beyond.CASES):
-        ax.axhline(row, color=plotting.FAINT, linewidth=GUIDE, zorder=0)
+        ax.axhline(row, color=plotting.FAINT, linewidth=GUIDE, zorder=0, xmax=FOUND - 3 * COLUMN)
         for way, side in SIDES.items():
             _dots(ax, beyond.distances(*case), row + side * APART, way, way if row == 0 else None)
     for way, side in SIDES.items():
