@@ -14,7 +14,8 @@ def distances():
     meshes = beyond.numbers_of_meshes()
     caption = (f"{len(beyond.FUNCTIONS)} functions on {beyond.SETS} sets of {beyond.NODES} nodes with "
                f"{meshes.min()} to {meshes.max()} meshes each: in how many of these cases the best of all "
-               "meshes is found, and what is paid above it.")
+               f"is found, and what is paid above it. Annealing has {beyond.LEVELS} temperatures and "
+               f"{beyond.TRIES} tries for each edge.")
     return numbered(caption, "tab-distances", grid(head, rows))
 
 
@@ -29,8 +30,8 @@ def large():
     head = ("Problem", "Criterion", "Start", "Swapped", f"Best of {beyond.ORDERS} orders", "Annealed, median",
             "least", "Proved optimum", "$L_2$ swapped", "annealed", "optimum")
     rows = [_large(*case) for case in beyond.LARGE]
-    caption = (f"Costs on the start meshes of the thesis, annealed with {len(beyond.SEEDS)} seeds, and $L_2$ "
-               "errors of three of the meshes.")
+    caption = (f"Costs on the start meshes of the thesis, annealed with {len(beyond.SEEDS)} seeds by the default "
+               "schedule, and $L_2$ errors of three of the meshes.")
     return numbered(caption, "tab-annealed", grid(head, rows))
 
 
