@@ -15,7 +15,8 @@ class Draws:
     Notes
     -----
     NumPy promises the stream of bits of a bit generator for ever, but not what its
-    `Generator` makes of them (NEP 19).  So the few distributions that are needed are made here.
+    `Generator` makes of them (NEP 19).  So the few distributions that are needed are made
+    here; only `exponential` depends on the platform, in the last bit of its logarithm.
 
     Examples
     --------
