@@ -30,8 +30,8 @@ def large():
     head = ("Problem", "Criterion", "Start", "Swapped", f"Best of {beyond.ORDERS} orders", "Annealed, median",
             "least", "Proved optimum", "$L_2$ swapped", "annealed", "optimum")
     rows = [_large(*case) for case in beyond.LARGE]
-    caption = (f"Costs on the start meshes of the thesis, annealed with {len(beyond.SEEDS)} seeds by the default "
-               "schedule, and $L_2$ errors of three of the meshes.")
+    caption = (f"Costs on the start meshes of the thesis, annealed with {len(beyond.SEEDS)} seeds by the "
+               "default schedule, and $L_2$ errors of three of the meshes.")
     return numbered(caption, "tab-annealed", grid(head, rows))
 
 
