@@ -141,16 +141,15 @@ class Large:
 
     Attributes
     ----------
-    start, swapped, orders, best : float
-        Costs: of the start mesh, after swapping in natural order, the least of `ORDERS`
-        random orders, and the proved least of all meshes.
+    swapped, orders, best : float
+        Costs: after swapping in natural order, the least of `ORDERS` random orders, and
+        the proved least of all meshes.
     annealed : (n,) ndarray of float64
         Costs, one for each seed.
     error_swapped, error_annealed, error_best : float
         L2 errors; the second of the mesh of the first seed of least cost.
     """
 
-    start: float
     swapped: float
     orders: float
     best: float
@@ -179,5 +178,5 @@ def large(nodes, function, name, norm):
     least = min(runs, key=lambda run: run.cost_after)
     proved, many = optimal(mesh, u, name, norm), local_optima(mesh, u, name, norm, ORDERS)
     meshes = in_natural_order(nodes, function, name, norm), least.mesh, proved.mesh
-    return Large(least.cost_before, least.cost_swapped, many.costs.min(), proved.cost,
+    return Large(least.cost_swapped, many.costs.min(), proved.cost,
                  np.array([run.cost_after for run in runs]), *(l2_error(found, u) for found in meshes))
