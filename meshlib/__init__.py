@@ -1,5 +1,6 @@
 """Data-dependent triangulation: nodal values in, a better triangulation out."""
 from . import criteria, curves, problems
+from .annealing import annealed
 from .approximation import approximate
 from .combined import combined
 from .delaunay import delaunay
@@ -17,6 +18,6 @@ from .swapping import swapped
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"
 
-__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "approximate", "combined",
-           "criteria", "curves", "delaunay", "local_optima", "optimal", "problems", "quality", "refined",
-           "smoothed", "swapped", "uniformity", "valence"]
+__all__ = ["DataSprings", "Interpolant", "Interrupted", "Mesh", "MeshError", "annealed", "approximate",
+           "combined", "criteria", "curves", "delaunay", "local_optima", "optimal", "problems", "quality",
+           "refined", "smoothed", "swapped", "uniformity", "valence"]

@@ -55,7 +55,8 @@ def is_below(new, old, norm, relative, absolute):
     """Whether a measure is below another by more than the tolerance.
 
     For the L2 norm the roots are compared: costs h that are known but for d are so
-    squared but for 2 h d, which no fixed tolerance on squares would cover.
+    squared but for 2 h d, which no fixed tolerance on squares would cover.  With a
+    negative absolute part the measure may also rise, by less than that.
 
     Examples
     --------
@@ -64,6 +65,8 @@ def is_below(new, old, norm, relative, absolute):
     """
     if isinstance(new, tuple):
         return new < old
+    if new >= old:
+        return new - old < -absolute
     if norm == 2:
         new, old = new ** 0.5, old ** 0.5
     return new < old * (1 - relative) - absolute

@@ -74,8 +74,12 @@ class Procedure:
         -------
         Outcome
         """
-        compiled = self.norm in NORM_CODES and self.criterion.is_compiled
-        return (self._compiled if compiled else self._plain)(order, trace, schedule, watch)
+        return (self._compiled if self.is_compiled else self._plain)(order, trace, schedule, watch)
+
+    @property
+    def is_compiled(self):
+        """Whether kernels know criterion and norm."""
+        return self.norm in NORM_CODES and self.criterion.is_compiled
 
     def swapped(self, order):
         """The mesh that `run` leaves, without a record."""
@@ -87,24 +91,24 @@ class Procedure:
 
     def _compiled(self, order, trace, schedule, watch):
         kernels = for_work(STEPS * len(order))  # a cost of one's own has loaded the compiled
-        state, arguments = self._arguments(kernels)
+        state, arguments = self.arguments(kernels)
         order, tally = _start(order, kernels)
         if trace and schedule == "sweep":
             return self._traced(kernels, order, tally, state, arguments)
         # the trace of a queue may be of any length
-        logs = _logs(self.run(order, False, schedule).tried if trace else 0, kernels)
+        logs = logs_for(self.run(order, False, schedule).tried if trace else 0, kernels)
         kernel = {"sweep": kernels.schedules.swept, "queue": kernels.schedules.drained}[schedule]
         _watched(kernel, watch, order, tally, *arguments, *logs)
         return self._outcome(state, tally, _rows(0, *logs, tally[codes.TRIES] if trace else 0))
 
-    def _arguments(self, kernels):
+    def arguments(self, kernels):
         """A fresh copy of the state, and all that a kernel wants after order, tally and limit."""
         points, state = self._prepared(kernels)
         return state, (self.criterion.code, self.criterion.pointer, NORM_CODES[self.norm], *self.tolerance,
                        self.limits.angle, 2 * self.limits.area, points, *state)
 
     def _traced(self, kernels, order, tally, state, arguments):
-        rows, logs, done = [], _logs(len(order), kernels), False
+        rows, logs, done = [], logs_for(len(order), kernels), False
         while not done:
             before = tally[codes.TRIES]
             kernels.schedules.sweep(order, tally, len(order), *arguments, *logs)
@@ -113,12 +117,7 @@ class Procedure:
         return self._outcome(state, tally, np.concatenate(rows))
 
     def _outcome(self, state, tally, trace):
-        element, half = state[0], state[3]
-        if tally[codes.FAULT] >= 0:
-            h = int(half[tally[codes.FAULT]])
-            a, b = sorted(int(element[h - h % 3 + (h + step) % 3]) for step in (1, 2))
-            raise not_a_cost(a, b)
-        elements = np.asarray(element, dtype=np.int32).reshape(-1, 3)
+        elements = elements_of(state, tally)
         return Outcome(elements, *(int(tally[k]) for k in (codes.SWAPS, codes.SWEEPS, codes.TRIES)), trace)
 
     def _plain(self, order, trace, schedule, watch):
@@ -165,6 +164,16 @@ def _start(order, kernels):
     return writable(np.array(order, dtype=np.int32)), writable(tally)
 
 
+def elements_of(state, tally):
+    """The elements of a state, or the error of a cost of one's own that is not a cost."""
+    element, half = state[0], state[3]
+    if tally[codes.FAULT] >= 0:
+        h = int(half[tally[codes.FAULT]])
+        a, b = sorted(int(element[h - h % 3 + (h + step) % 3]) for step in (1, 2))
+        raise not_a_cost(a, b)
+    return np.asarray(element, dtype=np.int32).reshape(-1, 3)
+
+
 def _watched(kernel, watch, order, tally, *arguments):
     """Run a kernel to its end, part by part if somebody watches."""
     if watch is None:
@@ -175,7 +184,7 @@ def _watched(kernel, watch, order, tally, *arguments):
         watch.report(tally[codes.PLACE] if waiting == len(order) else len(order) - waiting)
 
 
-def _logs(rows, kernels):
+def logs_for(rows, kernels):
     """Room to record so many tried swaps."""
     writable = kernels.backend.writable
     return writable(np.zeros(6 * rows, dtype=np.int64)), writable(np.zeros(2 * rows))

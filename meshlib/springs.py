@@ -9,6 +9,7 @@ from .errors import MeshError
 
 FIRST, SECOND = 0.0, 100.0
 POWER = 0.4
+NOISE = 1e-14  # relative size of differences that are rounding
 PARTS = 6  # of an edge, so that a steep ramp across its middle is seen
 
 
@@ -69,8 +70,8 @@ class DataSprings:
         """(E,) float64: the constant of each edge of a mesh."""
         first, second, length = self.derivatives(mesh)
         weight = length / length.sum()
-        first, second = _relative(first, weight), _relative(second, weight)
-        return (1 + self.first * first + self.second * second) ** self.power
+        steep, curved = _relative(first, weight), _relative(second, weight)
+        return (1 + self.first * steep + self.second * curved) ** self.power
 
     def derivatives(self, mesh):
         """``|u_s|``, ``|u_ss|`` and the length of each edge, (E,) float64 each."""
@@ -78,8 +79,15 @@ class DataSprings:
         share = np.linspace(0, 1, PARTS + 1)[:, None]
         x, y = start[:, None] + share * (end - start)[:, None]
         values, length = checks.function_values(self.function, x, y), np.hypot(*(end - start))
-        bend = np.abs(np.diff(values, 2, axis=0)).mean(axis=0)
-        return np.abs(values[-1] - values[0]) / length, bend * (PARTS / length) ** 2, length
+        noise = NOISE * np.abs(values).max()
+        rise = _above(np.abs(values[-1] - values[0]), noise)
+        bend = _above(np.abs(np.diff(values, 2, axis=0)).mean(axis=0), noise)
+        return rise / length, bend * (PARTS / length) ** 2, length
+
+
+def _above(sizes, noise):
+    """Sizes, and 0 for those that are rounding: linear data have no curvature."""
+    return np.where(sizes > noise, sizes, 0)
 
 
 def _relative(sizes, weight):

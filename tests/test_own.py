@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from meshlib import Interpolant, MeshError, criteria, delaunay, problems, swapped
+from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, swapped
 from meshlib.kernels.backend import NAME
+from meshlib.topology import from_smallest
 from strategies import problems_of
 from support import lattice, shuffled
 
@@ -74,8 +75,9 @@ def test_min_error_in_kernels(name, schedule):
     criterion = criteria.min_error(u)
     assert criterion.is_compiled
     assert_same(mesh, u, criterion, in_python(criterion), 2, schedule=schedule)
-    assert swapped(mesh, u, criterion, 2).cost_after == pytest.approx(
-        Interpolant(swapped(mesh, u, criterion, 2).mesh, u).l2_error(u, "exact", degree=6))
+    found = swapped(mesh, u, criterion, 2)
+    turned = Mesh(mesh.nodes, from_smallest(found.mesh.elements))  # the rule is not symmetric in the nodes
+    assert found.cost_after == pytest.approx(Interpolant(turned, u).l2_error(u, "exact", degree=6))
 
 
 def test_a_function_that_numba_cannot_compile_runs_in_python():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from meshlib import Mesh, delaunay, problems, refined, smoothed
+from meshlib import DataSprings, Mesh, MeshError, delaunay, problems, refined, smoothed
 from strategies import meshes
 from support import lattice
 
@@ -129,3 +129,75 @@ def test_place_and_size_do_not_matter(shift, scale, rng):
     mesh = delaunay(rng.integers(0, 100, (30, 2)))
     moved = smoothed(Mesh(mesh.nodes * scale + shift, mesh.elements)).mesh.nodes
     assert np.allclose((moved - shift) / scale, smoothed(mesh).mesh.nodes, atol=1e-5)
+
+
+# -- springs that follow the data ------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["33", "81"])
+def test_derivatives_of_a_quadratic_along_edges(name):
+    """For u = x^2 an edge in the direction (c, s) has u_ss = 2 c^2, and u_s = c (x_p + x_q)."""
+    mesh = problems.mesh(name)
+    start, end = mesh.nodes[mesh.edges].transpose(1, 2, 0)
+    cosine = (end - start)[0] / np.hypot(*(end - start))
+    first, second, _ = DataSprings(lambda x, y: x ** 2).derivatives(mesh)
+    assert np.allclose(second, 2 * cosine ** 2) and np.allclose(first, np.abs(cosine * (start + end)[0]))
+
+
+def test_the_unit_of_the_data_does_not_matter():
+    mesh, u = problems.mesh("33"), problems.SR2
+    assert np.allclose(DataSprings(u, 3, 5)(mesh), DataSprings(lambda x, y: 7 - 1e6 * u(x, y), 3, 5)(mesh))
+
+
+def test_linear_data_give_laplacian_smoothing():
+    mesh = problems.mesh("33")
+    moved = smoothed(mesh, DataSprings(lambda x, y: x + 2 * y)).mesh
+    assert np.allclose(moved.nodes, smoothed(mesh).mesh.nodes, atol=1e-6)
+
+
+@settings(max_examples=30)
+@given(meshes(most=14, scales=(1.0,)), st.booleans(), st.sampled_from((1, 3, 30)), st.sampled_from((0.4, 1, 3)))
+def test_valid_whatever_the_data(mesh, sliding, sweeps, power):
+    u = lambda x, y: np.tanh(5 * (x - 2)) + np.sin(7 * y)  # noqa: E731
+    moved = smoothed(mesh, DataSprings(u, 1, 100, power), sweeps=sweeps, sliding=sliding).mesh.validate()
+    assert np.array_equal(moved.elements, mesh.elements)
+    assert moved.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
+
+
+def test_nodes_slide_along_sides_and_corners_stay():
+    mesh = problems.mesh("81")
+    moved = smoothed(mesh, DataSprings(problems.SR3), sliding=True, tolerance=1e-4).mesh
+    on_side = (mesh.nodes == 0) | (mesh.nodes == 1)
+    assert np.array_equal(moved.nodes[on_side], mesh.nodes[on_side])
+    shift = np.abs(moved.nodes - mesh.nodes).max(axis=1)
+    assert shift[on_side.all(axis=1)].max() == 0 < shift[on_side.any(axis=1)].max()
+
+
+def test_a_step_that_would_tangle_is_halved():
+    """From (1/2, 0) towards (9/4, 0); the notch is at (1, 0): a quarter of the step is the first inside."""
+    result = smoothed(boomerang(), halvings=2, sweeps=1)
+    assert result.refused == 0 and result.mesh.validate().nodes[4] == pytest.approx([0.5 + 1.75 / 4, 0])
+    assert smoothed(boomerang(), halvings=1, sweeps=1).refused == 1
+
+
+@pytest.mark.parametrize("arguments, expected", [
+    ((3,), "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
+    ((len, -1), "range: first is -1; give a finite number of at least 0"),
+    ((len, 0, float("inf")), "range: second is inf; give a finite number of at least 0"),
+])
+def test_bad_data_springs(arguments, expected):
+    with pytest.raises(MeshError) as error:
+        DataSprings(*arguments)
+    assert str(error.value) == expected
+
+
+def test_springs_of_the_wrong_shape_are_named_on_the_way():
+    with pytest.raises(MeshError) as error:
+        smoothed(problems.mesh("33"), lambda mesh: np.ones(3))
+    assert str(error.value) == "shape: springs have shape (3,); give one constant for each of the 88 edges"
+
+
+def test_data_that_are_not_finite_are_named():
+    with pytest.raises(MeshError) as error:
+        smoothed(problems.mesh("81"), DataSprings(lambda x, y: np.where(x == 0.5, np.nan, x)))
+    assert str(error.value) == "finite: the function is nan at (0.5, 0.0); it must be finite in the whole domain"

@@ -19,9 +19,21 @@ def test_derivatives_of_a_quadratic_function_are_exact():
     assert second == pytest.approx(2 * (along[:, 0] / length) ** 2)
 
 
-def test_a_plane_has_equal_springs():
-    mesh = problems.mesh("81")
-    assert DataSprings(lambda x, y: 0 * x)(mesh) == pytest.approx(np.ones(mesh.n_edges))
+@pytest.mark.parametrize("nodes", ["33", "81"])
+@pytest.mark.parametrize("a, b, c", [(2, -3, 1), (1e6, 1, 7), (1 / 3, 0.1, 1e3), (0, 0, 5)])
+def test_a_plane_has_equal_springs(nodes, a, b, c):
+    """Though the second differences of most are not 0 but rounding, which has a mean as well."""
+    mesh, plane = problems.mesh(nodes), DataSprings(lambda x, y: a * x + b * y + c)
+    assert np.array_equal(plane(mesh), np.ones(mesh.n_edges))
+    assert np.array_equal(plane.derivatives(mesh)[1], np.zeros(mesh.n_edges))
+
+
+def test_a_plane_is_not_equally_steep_along_all_edges():
+    """On 2 x 2 squares |u_s| of u = x is 1, 0, 1/sqrt 2 on 6, 6, 4 edges of lengths 1, 1, sqrt 2."""
+    mesh = delaunay(lattice(2, 2))
+    mean = (6 + 4) / (12 + 4 * np.sqrt(2))
+    found, counts = np.unique(DataSprings(lambda x, y: x, 1, 0, 1)(mesh).round(9), return_counts=True)
+    assert found == pytest.approx([1, 1 + np.sqrt(0.5) / mean, 1 + 1 / mean]) and counts.tolist() == [6, 4, 6]
 
 
 @settings(max_examples=20, deadline=None)

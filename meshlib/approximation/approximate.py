@@ -5,6 +5,7 @@ import numpy as np
 
 from .. import checks
 from ..delaunay import delaunay
+from ..draws import Draws
 from ..errors import Interrupted, MeshError
 from ..interpolant import Interpolant
 from ..mesh import Mesh
@@ -202,7 +203,7 @@ def _start(domain, nodes, seed):
     shape = np.minimum(np.ceil(CELLS * size / size.min()), most).astype(int)
     lattice = np.stack(np.meshgrid(*(np.arange(n + 1.0) for n in shape)), axis=-1).reshape(-1, 2)
     inner = ((lattice > 0) & (lattice < shape)).all(axis=1)
-    lattice[inner] += JITTER * np.random.default_rng(seed).uniform(-1, 1, (inner.sum(), 2))
+    lattice[inner] += JITTER * (2 * Draws(seed).uniform((inner.sum(), 2)) - 1)
     return delaunay(low + lattice / shape * size)
 
 

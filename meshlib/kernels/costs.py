@@ -156,9 +156,12 @@ def combined(norm, p, q, r, s, t):
 
 @compiled
 def is_below(norm, new, old, relative, absolute):
-    """Whether a local cost is below another by more than the tolerance, see `norms.is_below`."""
+    """Whether a local cost is below another by more than the tolerance, see `norms.is_below`.
+
+    With a negative absolute part it may also rise, by less than that, in what is summed.
+    """
     if new >= old:
-        return False  # mostly, and without a root
+        return new - old < -absolute  # mostly false, and without a root
     if norm == SQUARES:
         new, old = sqrt(new), sqrt(old)
     return new < old * (1 - relative) - absolute

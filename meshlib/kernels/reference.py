@@ -22,7 +22,7 @@ def swapped(mesh, *arguments):
 
     The arguments are values, criterion, norm, order, limits and tolerance.
     """
-    state = _State(mesh, *arguments)
+    state = State(mesh, *arguments)
     sweep, changed = 0, True
     while changed:
         sweep += 1
@@ -32,7 +32,7 @@ def swapped(mesh, *arguments):
 
 def drained(mesh, *arguments):
     """The same with a queue: all edges once, and again those whose local cost a swap may change."""
-    state = _State(mesh, *arguments)
+    state = State(mesh, *arguments)
     queue = deque(state.order)
     while queue:
         e = queue.popleft()
@@ -41,7 +41,7 @@ def drained(mesh, *arguments):
     return state.elements, state.swaps, 0, state.tried
 
 
-class _State:
+class State:
     """A mesh as a dictionary, and what has been done to it."""
 
     def __init__(self, mesh, values, criterion, norm, order, limits, tolerance):

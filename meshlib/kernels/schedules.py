@@ -123,3 +123,20 @@ def drained(queue, tally, limit, code, given, norm, relative, absolute, min_angl
             tally[FAULT] = e
     tally[PLACE], tally[WAITING], tally[TRIES], tally[SWAPS] = first, waiting, tried, swaps
     return waiting == 0 or tally[FAULT] >= 0
+
+
+@compiled
+def walked(edges, rises, tally, code, given, norm, relative, absolute, min_angle, min_area,
+           point, element, twin, slot, half, face, cost, settled, log, costs):
+    """Inspect edges one after the other; a swap may raise the sum of costs by less than its rise.
+
+    The tolerances are not used.  Rows of what is recorded are numbered like the edges.
+    """
+    for i in range(len(edges)):
+        e = edges[i]
+        found = inspect(e, code, given, norm, 0.0, -rises[i], min_angle, min_area,
+                        point, element, twin, slot, half, face, cost, settled, log, costs, i)
+        if found == SWAPPED:
+            tally[SWAPS] += 1
+        elif found == INVALID:
+            tally[FAULT] = e

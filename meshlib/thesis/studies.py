@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 
 from .. import Mesh, criteria, problems
+from ..draws import Draws
 from ..enumeration import enumerated
 from ..interpolant import squared_errors
 from ..optima import LocalOptima, local_optima, order_of
@@ -244,8 +245,8 @@ def every_mesh():
     return costs, errors, reached
 
 
-def small_mesh():
-    """The corners of the square and six random nodes."""
+def small_mesh(count=SMALL_NODES, seed=SMALL_SEED):
+    """The corners of the square and random nodes, so many together."""
     from .. import delaunay
-    inside = np.random.default_rng(SMALL_SEED).random((SMALL_NODES - 4, 2))
+    inside = Draws(seed).uniform((count - 4, 2))
     return delaunay(np.vstack([[[0, 0], [1, 0], [1, 1], [0, 1]], inside]))

@@ -2,6 +2,7 @@
 import numpy as np
 
 import meshlib as ml
+from meshlib.draws import Draws
 
 ROW = 0.866  # height of a row of almost equilateral elements
 SEED = 3
@@ -16,7 +17,7 @@ def hexagon(rings, jitter=0.0):
     i, j = np.mgrid[-rings:rings + 1, -rings:rings + 1].reshape(2, -1)
     nodes = np.column_stack([i + j / 2, ROW * j])[abs(i + j) <= rings]
     mesh = ml.delaunay(nodes)
-    moves = np.random.default_rng(SEED).uniform(-jitter, jitter, nodes.shape)
+    moves = jitter * (2 * Draws(SEED).uniform(nodes.shape) - 1)
     return ml.Mesh(nodes + moves * ~mesh.boundary_nodes[:, None], mesh.elements).validate()
 
 
