@@ -136,8 +136,7 @@ def efficiency(mesh, function, bound):
 @cache
 def made(name, nodes=SHOWN, min_angle=None):
     """The approximation of one of the functions; made once in a process."""
-    with np.errstate(invalid="ignore"):  # elements below the least angle have an infinite error
-        return approximate((FUNCTIONS | DIRECTED)[name], nodes, min_angle=min_angle)
+    return approximate((FUNCTIONS | DIRECTED)[name], nodes, min_angle=min_angle)
 
 
 def lattice(nodes):

@@ -11,6 +11,7 @@ COLOURS = dict(zip(limit.FUNCTIONS, (plotting.PALETTE[c] for c in ("blue", "gree
 MARKERS = "osv^D*X"
 GALLERY = "ring", "DD1", "Franke"
 FEW = limit.DIRECTED_NODES[0]  # nodes at which single elements can be seen
+DOTS = 10, 5  # points, so that one is seen behind the other
 FINE, HAIR = 0.5, 0.3  # points, of edges
 TALL, LOW = 3.6, 3.1  # inches
 CONTOURS = 9
@@ -85,10 +86,11 @@ def _lit(heights):
 def directed():
     """Error over that of parallel strips, and two meshes of few nodes."""
     figure, (ax, *flat) = plotting.panels(3)
-    for (name, u), colour in zip(limit.DIRECTED.items(), COLOURS.values(), strict=False):
+    for (name, u), colour, size in zip(limit.DIRECTED.items(), COLOURS.values(), DOTS, strict=False):
         ratios = [limit.error(limit.made(name, n).mesh, u) / limit.strip_error(u, n)
                   for n in limit.DIRECTED_NODES]
-        ax.semilogx(limit.DIRECTED_NODES, ratios, marker="o", color=colour, label=name)
+        ax.semilogx(limit.DIRECTED_NODES, ratios, marker="o", markersize=size, color=colour,
+                    label=name)
     for height, text in ((1, "strips"), (limit.ZIGZAG, "zigzag")):
         ax.axhline(height, color=plotting.INK, linewidth=1, zorder=0)
         ax.annotate(text, (1, height), (-2, -2), xycoords=("axes fraction", "data"), ha="right", va="top",
