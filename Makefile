@@ -2,6 +2,7 @@
 PYTHON ?= python3
 WORKERS ?= 2
 NODES ?= 10000 100000
+SIZES ?= 100 400
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -32,9 +33,9 @@ test: $(READY) ## Unit tests (both backends), doctests, notebooks against their 
 notebooks: $(READY) ## Run the notebooks in place and strip what changes from run to run
 	$(BIN)/python book/execute.py notebooks/*.ipynb
 
-bench: $(READY) ## Time and memory against peers, an hour for a million nodes: make bench NODES=1000000
+bench: $(READY) ## Time, memory and errors against peers, an hour for a million nodes: make bench NODES=1000000
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r benchmarks/requirements.txt
-	$(BIN)/python benchmarks/run.py --nodes $(NODES) $(if $(JSON),--json $(JSON))
+	$(BIN)/python benchmarks/run.py --nodes $(NODES) --sizes $(SIZES) $(if $(JSON),--json $(JSON))
 
 lock: ## Pin the newest versions that pyproject.toml allows in requirements.txt
 	$(PYTHON) -m venv $(VENV)-lock

@@ -49,10 +49,14 @@ def found(measure, kind, nodes, name, field="times"):
 
 def machine():
     """The machine and the versions, in a sentence."""
-    about = results()
+    return markdown(sentence(results()))
+
+
+def sentence(about):
+    """When, on what and with what something was measured."""
     versions = ", ".join(f"{name} {number}" for name, number in about["versions"].items())
-    return markdown(f"Measured on {about['date']} on {about['cores']} cores of {about['processor']} "
-                    f"({about['system']}, {about['machine']}), Python {about['python']}, {versions}.")
+    return (f"Measured on {about['date']} on {about['cores']} cores of {about['processor']} "
+            f"({about['system']}, {about['machine']}), Python {about['python']}, {versions}.")
 
 
 def short_answer():
@@ -123,11 +127,16 @@ def _starts():
 
 
 def _row(text, nodes, sign, goal, value):
-    about = text, _count(nodes), f"{SIGNS[sign]}&nbsp;{goal:g}"
+    return text, _count(nodes), *verdict(value, sign, goal)
+
+
+def verdict(value, sign, goal):
+    """A goal, what was measured, and whether that meets it, as three cells."""
+    about = f"{SIGNS[sign]}&nbsp;{goal:g}"
     if value is None or value != value:
-        return *about, "not measured", ""
+        return about, "not measured", ""
     met = value <= goal if sign == "<=" else value >= goal
-    return *about, f"{value:.3g}", "met" if met else "missed"
+    return about, f"{value:.3g}", "met" if met else "missed"
 
 
 def _count(nodes):

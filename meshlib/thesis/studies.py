@@ -183,11 +183,11 @@ def settled_error(mesh, function):
         found = np.sqrt(squared_errors(corners, values, function, QUADRATURE_DEGREE).sum())
         if abs(found - last) <= SETTLED * found:
             break
-        corners, values, last = _quartered(corners), _quartered(values), found
+        corners, values, last = quartered(corners), quartered(values), found
     return float(found)
 
 
-def _quartered(corners):
+def quartered(corners):
     """The three corners, or the values at them, of the four parts of each triangle."""
     a, b, c = np.moveaxis(corners, 1, 0)
     ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
