@@ -12,6 +12,7 @@ from support import lattice
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 import approximation  # noqa: E402
 import remeshing  # noqa: E402
+import report  # noqa: E402
 import report_approximation as page  # noqa: E402
 import run  # noqa: E402
 
@@ -146,3 +147,11 @@ def test_a_run_renews_only_what_it_measures(tmp_path, monkeypatch):
 def test_a_mesh_that_is_not_valid_is_noticed():
     assert approximation._valid(problems.mesh("33"))
     assert not approximation._valid(Mesh([(0, 0), (1, 0), (0, 1)], [(0, 2, 1)]))
+
+
+def test_stored_results_have_every_function():
+    """What the page shows is there: of every function at least one size, and all meshes valid."""
+    stored = report.results()["approximate"]
+    assert {row["function"] for row in stored["lines"]} == set(approximation.FUNCTIONS)
+    assert set(stored["B"]) | set(stored["K"]) == set(approximation.FUNCTIONS)
+    assert all(row["valid"] for row in stored["lines"] if row["who"] == "ours")
