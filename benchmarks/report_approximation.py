@@ -190,6 +190,8 @@ def picture():
         figure.legend(*axes.flat[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
         for row in axes:
             row[0].set_ylabel("$L_2$ error")
+        for ax in axes[-1]:
+            ax.set_xlabel("nodes")
     return figure
 
 
@@ -200,10 +202,10 @@ def _curves(ax, name):
         ax.loglog(*zip(*points, strict=True), marker=marker, markersize=4, linestyle=dashes,
                   color=plotting.PALETTE[colour], label=who)
     ax.loglog(sizes(), [least(name, n) for n in sizes()], color=plotting.FAINT, label="limit", zorder=0)
-    ticks = (sizes()[0], sizes()[len(sizes()) // 2], sizes()[-1])
+    ticks = sorted({sizes()[0], sizes()[len(sizes()) // 2], sizes()[-1]})
     ax.minorticks_off()
     ax.set_xticks(ticks, ticks)
-    ax.set(title=name, xlabel="nodes")
+    ax.set_title(name)
     ax.spines[["top", "right"]].set_visible(False)
 
 
@@ -274,5 +276,5 @@ def _seconds(name, nodes):
     return f"It takes {our(name, nodes, 'seconds'):.3g} s."
 
 
-REASONS = {greedy_error: _bound_of_greedy, greedy_largest: _largest, efficiency: _near_limit, mmg_error: _already_near,
-           mmg_time: _seconds, growth: _seconds}
+REASONS = {efficiency: _near_limit, mmg_error: _already_near, mmg_time: _seconds, growth: _seconds,
+           greedy_error: _bound_of_greedy, greedy_largest: _largest}
