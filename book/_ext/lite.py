@@ -23,7 +23,7 @@ KERNEL = "@jupyterlite/pyodide-kernel-extension"
 EXTENSIONS = [KERNEL, "@jupyter-widgets/jupyterlab-manager", "anywidget"]
 KERNELSPEC = {"name": "python", "display_name": "Python (Pyodide)", "language": "python"}
 APPS = ["notebooks", "tree", "lab", "edit"]
-INSTALL = "%pip install -q 'data-dependent-mesh[plot,widgets]'"
+INSTALL = "%pip install -q 'data-dependent-mesh[fem,plot,widgets]'"
 NOTE = "JupyterLite: the library and what it needs, once in each session."
 # What the page on performance reads.
 DATA = ["benchmarks/*.py", "benchmarks/*.json"]
