@@ -1,0 +1,140 @@
+"""What an explorer shows: a start mesh and what becomes of it, without widgets or pictures."""
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..interpolant import Interpolant
+from ..mesh import Mesh
+from ..quality import MEASURES, Quality, quality
+
+GRID = 101  # points along each side, for errors as the thesis measures them
+UNITS = {"maximum_angle": " (°)"}
+NO_TRACE = ()
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A start mesh and the meshes that a procedure makes of it.
+
+    Attributes
+    ----------
+    title : str
+    function : callable
+        The vectorised u(x, y) that is interpolated.
+    start : Mesh
+    film : tuple of Mesh
+        The meshes after the start, at least one; the last is the adapted mesh.
+    trace : structured array
+        Tried swaps as in `meshlib.swapping.Swapping.trace`, which lead from the start to
+        the only mesh of the film; then each try is a frame.
+    swaps : int
+    cost : str
+        Criterion whose costs are of interest.
+    norm : {1, 2, "max", "lexicographic"}
+        By which tried swaps were compared.
+    """
+
+    title: str
+    function: Callable
+    start: Mesh
+    film: tuple
+    trace: np.ndarray = NO_TRACE
+    swaps: int = 0
+    cost: str = "jnd"
+    norm: int | str = 2
+
+    @property
+    def frames(self):
+        """Number of frames; frame 0 is the start mesh."""
+        return 1 + (len(self.trace) or len(self.film))
+
+    @cached_property
+    def before(self):
+        """The start mesh as a `Stage`."""
+        return Stage(self.function, self.start)
+
+    @cached_property
+    def after(self):
+        """The adapted mesh as a `Stage`."""
+        return Stage(self.function, self.film[-1], self.swaps)
+
+    @property
+    def rows(self):
+        """The quality table: rows of a label and the numbers before and after, as text."""
+        before, after = (column(stage) for stage in (self.before, self.after))
+        return [(label, before[label], after[label]) for label in after]
+
+    def __str__(self):
+        edges = self.film[-1].n_edges
+        return (f"{self.title}: {edges} edges, {self.swaps} swap{'s' * (self.swaps != 1)}, "
+                f"L2 error {significant(self.after.l2_error)}")
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A mesh, what it represents, and how well.
+
+    Attributes
+    ----------
+    function : callable
+    mesh : Mesh
+    swaps : int
+        Swaps made since the start mesh.
+    """
+
+    function: Callable
+    mesh: Mesh
+    swaps: int = 0
+
+    @cached_property
+    def interpolant(self):
+        """The piecewise linear interpolant of the function."""
+        return Interpolant(self.mesh, self.function)
+
+    @cached_property
+    def error(self):
+        """(101, 101) float64: |u - u_h| on a regular grid over the domain."""
+        return np.abs(self.interpolant.error_on_grid(self.function, GRID)[2])
+
+    @cached_property
+    def l2_error(self):
+        """By the trapezium rule on that grid."""
+        x, y = np.linspace(*self.mesh.box, GRID).T
+        # As Interpolant.l2_error, which would search the grid points a second time.
+        return float(np.sqrt(np.trapezoid(np.trapezoid(self.error ** 2, x, axis=1), y)))
+
+    @property
+    def largest_error(self):
+        """Largest absolute error on the grid."""
+        return float(self.error.max())
+
+    @cached_property
+    def quality(self) -> Quality:
+        """Shapes of the elements."""
+        return quality(self.mesh)
+
+
+def column(stage):
+    """One column of the quality table, by label."""
+    counts = map(str, (*stage.mesh.counts, stage.swaps))
+    texts = dict(zip(("Nodes", "Edges", "Elements", "Swaps"), counts, strict=True))
+    texts |= {"L2 error": significant(stage.l2_error),
+              "Largest error": significant(stage.largest_error)}
+    for name, title in MEASURES.items():
+        digits = 1 if name in UNITS else 3
+        for kind, values in (("mean", stage.quality.mean), ("max", stage.quality.max)):
+            texts[f"{title}{UNITS.get(name, '')}, {kind}"] = f"{values[name]:.{digits}f}"
+    return texts
+
+
+def significant(error):
+    """An error with four decimals, or three digits where these would say less."""
+    return f"{error:.4f}" if error >= 0.01 or error == 0 else f"{error:.2e}"
+
+
+def truth(function, mesh):
+    """(101, 101) float64: the function on the grid of the errors, a row for each y."""
+    x, y = np.linspace(*mesh.box, GRID).T
+    return np.broadcast_to(function(x[None, :], y[:, None]), (GRID, GRID))
