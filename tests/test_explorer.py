@@ -8,7 +8,7 @@ import pytest
 
 from meshlib import Interpolant, MeshError, approximate, problems, quality, refined, smoothed, swapped
 from meshlib.explorer import Explorer, atlas, scripts
-from meshlib.explorer.scene import GRID, column
+from meshlib.explorer.scene import GRID
 from meshlib.thesis import explorers
 
 ANYWIDGET = pytest.importorskip("anywidget")
@@ -214,14 +214,8 @@ def test_colours_of_the_view_are_matplotlibs():
         assert stops == [matplotlib.colors.to_hex(colour) for colour in table]
 
 
-def test_numbers_named_in_python_and_in_scripts_agree():
-    script = scripts.module() + scripts.classic()
-    assert f"const GRID = {GRID};" in script
-    labels = re.search(r"const counts = \{(.*?)\}", script)[1] + re.search(r"const errors = \{(.*?)\}", script)[1]
-    shapes = re.search(r"const SHAPES = \[(.*?)\n\]", script, re.S)[1]
-    named = re.findall(r'(?:"([^"]+)"|(\w+)): ', labels) + [(title, "") for title in re.findall(r'\["(.*?)"', shapes)]
-    stage = Explorer(explorers.SWAPS).scene.after
-    assert ["".join(pair) for pair in named] == list(dict.fromkeys(label.split(",")[0] for label in column(stage)))
+def test_python_and_scripts_measure_errors_on_the_same_grid():
+    assert f"const GRID = {GRID};" in scripts.module()
 
 
 # -- on a page ----------------------------------------------------------------------------

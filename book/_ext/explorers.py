@@ -7,6 +7,7 @@ import base64
 import gzip
 from pathlib import Path
 
+import joblib
 from sphinx.util import logging
 
 from meshlib.explorer import atlas, scripts
@@ -14,6 +15,7 @@ from meshlib.thesis.explorers import ALL
 
 TAG = "tag_explorer-"
 SCRIPT, STYLES, FOLDER = "explorers.js", "explorers.css", "explorers"
+SLOW = "approximation",  # seconds for each state, so that all cores share them
 logger = logging.getLogger(__name__)
 
 
@@ -25,10 +27,16 @@ def write(folder, names=tuple(ALL)):
     (folder / STYLES).write_text(scripts.styles(), encoding="utf-8")
     for name in names:
         logger.info("computing the states of the explorer %r", name)
+        pages = atlas.pages(ALL[name], parallel if name in SLOW else map)
         # mtime: the same states make the same file
-        packed = base64.b64encode(gzip.compress(atlas.pages(ALL[name]), mtime=0)).decode()
+        packed = base64.b64encode(gzip.compress(pages, mtime=0)).decode()
         # A script and not data, since pages opened from a file may load nothing else.
         (folder / FOLDER / f"{name}.js").write_text(f'meshExplorers.open("{name}", "{packed}");\n')
+
+
+def parallel(function, items):
+    """As `map`, on all cores."""
+    return joblib.Parallel(n_jobs=-1, return_as="generator")(map(joblib.delayed(function), items))
 
 
 def write_all(app):

@@ -116,17 +116,26 @@ class Stage:
         return quality(self.mesh)
 
 
-def column(stage):
-    """One column of the quality table, by label."""
-    counts = map(str, (*stage.mesh.counts, stage.swaps))
-    texts = dict(zip(("Nodes", "Edges", "Elements", "Swaps"), counts, strict=True))
-    texts |= {"L2 error": significant(stage.l2_error),
-              "Largest error": significant(stage.largest_error)}
+def numbers(stage):
+    """The numbers of the quality table, by label."""
+    found = dict(zip(("Nodes", "Edges", "Elements", "Swaps"), (*stage.mesh.counts, stage.swaps),
+                     strict=True))
+    found |= {"L2 error": stage.l2_error, "Largest error": stage.largest_error}
     for name, title in MEASURES.items():
-        digits = 1 if name in UNITS else 3
         for kind, values in (("mean", stage.quality.mean), ("max", stage.quality.max)):
-            texts[f"{title}{UNITS.get(name, '')}, {kind}"] = f"{values[name]:.{digits}f}"
-    return texts
+            found[f"{title}{UNITS.get(name, '')}, {kind}"] = values[name]
+    return found
+
+
+def column(stage):
+    """One column of the quality table: texts by label."""
+    return {label: _text(label, number) for label, number in numbers(stage).items()}
+
+
+def _text(label, number):
+    if label.endswith("error"):
+        return significant(number)
+    return str(number) if isinstance(number, int) else f"{number:.{1 if '(°)' in label else 3}f}"
 
 
 def significant(error):

@@ -109,6 +109,7 @@ function makeView() {
   page.panels.forEach(({ canvas }, k) => PANELS[k].turns && makeTurnable(canvas, eye, () => draw(k)));
   const sizes = new ResizeObserver(drawAll), forgetTheme = watchTheme(drawAll);
   sizes.observe(page.root);
+  page.root.shown = () => shown;                     // for other scripts, and tests
   return { root: page.root, show, stop: () => (sizes.disconnect(), forgetTheme()) };
 }
 
