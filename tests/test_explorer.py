@@ -28,10 +28,14 @@ class Reader:
         kind, offset, size = self.header["arrays"][name]
         return np.frombuffer(self.data, KINDS[kind], size, self.start + offset)
 
+    def members(self, mesh):
+        """Numbers of the elements of a mesh."""
+        steps = self["members"][slice(*self["meshes"][mesh:mesh + 2])].astype(int)
+        return np.where(steps % 2, -(steps + 1) // 2, steps // 2).cumsum()
+
     def elements(self, mesh):
         """Sorted triples of node coordinates."""
-        first, last = self["meshes"][mesh:mesh + 2]
-        corners = self["elements"].reshape(-1, 3)[self["members"][first:last].cumsum()]
+        corners = self["elements"].reshape(-1, 3)[self.members(mesh)]
         places = np.column_stack([self["x"], self["y"]])[corners]
         return sorted(sorted(map(tuple, element)) for element in places.round(9).tolist())
 
@@ -136,8 +140,7 @@ def test_an_atlas_has_values_and_the_grid_of_the_function(pages):
     grid = page["grids"].reshape(-1, GRID, GRID)[page["truth"][k]]
     x = np.linspace(0, 1, GRID)
     assert np.abs(grid - SR3(x[None, :], x[:, None])).max() < 1e-6
-    start = page["members"][slice(*page["meshes"][page["start"][k]:][:2])].cumsum()
-    nodes = np.unique(page["elements"].reshape(-1, 3)[start])
+    nodes = np.unique(page["elements"].reshape(-1, 3)[page.members(page["start"][k])])
     assert np.abs(page["u"][nodes] - SR3(page["x"][nodes], page["y"][nodes])).max() < 1e-11
 
 
@@ -148,7 +151,7 @@ def test_a_trace_leads_from_the_start_to_the_adapted_mesh(pages):
     pairs = {name: np.column_stack([page[first][tried], page[second][tried]])
              for name, first, second in (("old", "a", "b"), ("new", "c", "d"))}
     edges = set(map(frozenset, problems.mesh("33").edges.tolist()))
-    number = {(x, y): n for n, (x, y) in enumerate(problems.nodes("33").round(12).tolist())}
+    number = {(x, y): n for n, (x, y) in enumerate(problems.nodes("33").tolist())}
     name = [number.get((x, y)) for x, y in zip(page["x"].tolist(), page["y"].tolist(), strict=True)]
     for old, new, accepted in zip(pairs["old"], pairs["new"], page["accepted"][tried], strict=True):
         if accepted:

@@ -41,7 +41,7 @@ function elementsOf(atlas, mesh) {
   const steps = row(atlas.members, atlas.meshes, mesh), elements = new Uint32Array(3 * steps.length);
   let number = 0;
   steps.forEach((step, t) => {
-    number += step;
+    number += step % 2 ? -(step + 1) / 2 : step / 2;
     elements.set(atlas.elements.subarray(3 * number, 3 * number + 3), 3 * t);
   });
   return elements;

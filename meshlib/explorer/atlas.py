@@ -11,7 +11,6 @@ from ..criteria import get
 from .scene import truth
 
 ALIGNED = 8  # bytes, the size of the largest item
-SAME_PLACE = 12  # decimals; nodes that agree in so many are one node
 LITTLE_ENDIAN = {"f8": "<f8", "f4": "<f4", "u1": "<u1", "u2": "<u2", "u4": "<u4"}
 TRIED = ("a", "b", "c", "d", "accepted")
 NOTHING_TRIED = np.empty((len(TRIED), 0), dtype=int)
@@ -86,15 +85,15 @@ class _Tables:
 
     def _point_numbers(self, scene, mesh):
         values = scene.function(*mesh.nodes.T)
-        rows = np.column_stack([mesh.nodes, values]).round(SAME_PLACE).tolist()
+        rows = np.column_stack([mesh.nodes, values]).tolist()
         return np.array([self._points.setdefault(tuple(row), len(self._points)) for row in rows])
 
     def _mesh_number(self, scene, mesh):
         corners = self._point_numbers(scene, mesh)[mesh.elements]
         turn = corners.argmin(axis=1)[:, None]  # counter-clockwise from the smallest
         corners = np.take_along_axis(corners, (turn + np.arange(3)) % 3, axis=1)
-        numbers = sorted(self._elements.setdefault(tuple(row), len(self._elements))
-                         for row in corners.tolist())
+        # in their order, since of elements that meet at a point of the grid the last decides
+        numbers = [self._elements.setdefault(tuple(row), len(self._elements)) for row in corners.tolist()]
         return self._meshes.setdefault(tuple(numbers), len(self._meshes))
 
     def arrays(self):
@@ -118,8 +117,9 @@ def _starts(rows):
 
 
 def _steps(numbers):
-    """The first number and then differences, which are small and repeat themselves."""
-    return np.diff(numbers, prepend=0)
+    """Differences, which are small and repeat themselves: 0, -1, 1, -2, ... as 0, 1, 2, 3, ..."""
+    steps = np.diff(numbers, prepend=0)
+    return np.where(steps < 0, -2 * steps - 1, 2 * steps)
 
 
 def _joined(header, arrays):

@@ -2,6 +2,7 @@
 
 const EQUILATERAL = Math.PI / 3, DEGREE = Math.PI / 180;
 const ON_EDGE = 1e-9;                                // a grid point so far outside is on the edge
+const FLAT = 1e-12;                                  // area over squared size of what rounding made an element
 
 // The mesh of a frame: coordinates of the atlas, elements, and edges with their two elements.
 function meshOf({ atlas }, { elements, swaps, tried }) {
@@ -45,8 +46,9 @@ function errorOf(mesh, truth, { low, high }) {
   const error = new Float64Array(truth.length);
   const [dx, dy] = [0, 1].map((k) => (high[k] - low[k]) / (GRID - 1));
   for (let t = 0; t < mesh.size; t++) {
-    const [p, q, r] = cornersOf(mesh, t), [g, h] = gradient(mesh, p, q, r);
-    const { x, y, u } = mesh, xs = [x[p], x[q], x[r]], ys = [y[p], y[q], y[r]];
+    const { x, y, u } = mesh, [p, q, r] = cornersOf(mesh, t), [g, h] = gradient(mesh, p, q, r);
+    if (isFlat(mesh, p, q, r)) continue;             // its neighbours have its points
+    const xs = [x[p], x[q], x[r]], ys = [y[p], y[q], y[r]];
     const last = Math.min(GRID - 1, Math.floor((Math.max(...ys) - low[1]) / dy + ON_EDGE));
     for (let j = Math.max(0, Math.ceil((Math.min(...ys) - low[1]) / dy - ON_EDGE)); j <= last; j++) {
       const v = low[1] + j * dy, [left, right] = crossing(xs, ys, v, ON_EDGE * dy);
@@ -58,6 +60,11 @@ function errorOf(mesh, truth, { low, high }) {
     }
   }
   return error;
+}
+
+function isFlat({ x, y }, p, q, r) {
+  const [ex, ey, fx, fy] = [x[q] - x[p], y[q] - y[p], x[r] - x[p], y[r] - y[p]];
+  return Math.abs(ex * fy - ey * fx) < FLAT * (ex * ex + ey * ey + fx * fx + fy * fy);
 }
 
 // Where the line y = v enters and leaves a triangle.

@@ -20,6 +20,7 @@ PASSES = 3
 MOST_NODES = 500  # beyond which a refinement is not repeated
 NATURAL = "natural"
 EQUAL, BY_DATA, SLIDING = "equal", "by the data", "by the data, boundary sliding"
+ON_PAGE_SPRINGS = EQUAL, SLIDING
 MOST_SWEEPS = 25
 SIZES = 10, 20, 30, 50, 75, 100, 150, 200, 300, 400, 500
 
@@ -159,7 +160,8 @@ def _movement(function, nodes, springs):
 
 
 MOVEMENT = Exploration(
-    "movement", (_function(), _nodes(), menu("springs", "springs", (EQUAL, BY_DATA, SLIDING))),
+    "movement", (_function(), _nodes(),
+                 menu("springs", "springs", (EQUAL, BY_DATA, SLIDING), ON_PAGE_SPRINGS)),
     _movement, {"function": "SR3", "nodes": "33", "springs": EQUAL}, "sweep")
 
 

@@ -2,6 +2,7 @@
 import functools
 import threading
 from contextlib import contextmanager
+from http import HTTPStatus
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 SUBPATH = "/some/where"  # a site need not be at the root of its host
@@ -15,6 +16,14 @@ class Handler(SimpleHTTPRequestHandler):
         """The file of a path; outside the sub-path there is none."""
         inside = path.startswith(SUBPATH + "/")
         return super().translate_path(path[len(SUBPATH):] if inside else "/nothing")
+
+    def do_GET(self):
+        """As asked for; of the host, not of the site, is the icon of a page that names none."""
+        if self.path == "/favicon.ico":
+            self.send_response(HTTPStatus.NO_CONTENT)
+            self.end_headers()
+        else:
+            super().do_GET()
 
     def log_message(self, *_):
         """Nothing."""
