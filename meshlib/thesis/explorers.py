@@ -13,7 +13,7 @@ from ..springs import DataSprings
 from ..swapping import swapped
 
 NORM_NAMES = {1: "L1", 2: "L2", "max": "max", "lexicographic": "lexicographic"}
-ON_PAGE = "SR1", "SR2", "SR3", "DD1", "franke"
+THESIS = "SR1", "SR2", "SR3", "DD1"
 NONE = "none"
 PERCENTAGES = range(0, 101, 5)
 PASSES = 3
@@ -33,7 +33,7 @@ def _criteria():
             for name, title in found.items()}
 
 
-def _function(on_page=ON_PAGE):
+def _function(on_page=THESIS):
     return menu("function", "function", tuple(problems.functions), on_page)
 
 
