@@ -9,9 +9,9 @@ const CIVIDIS = ["#00224e", "#083370", "#35456c", "#4f576c", "#666970", "#7d7c78
 const SHADES = 256;
 const LEVELS = 10;                                   // lines of constant value
 const MARGIN = 6;                                    // pixels around the domain
-const HEIGHT = 0.62;                                 // of the surface, in widths of the domain
-const LIGHT = [-0.37, -0.21, 0.9];                   // towards the lamp
-const SHADOW = 0.5;
+const HEIGHT = 0.45;                                 // of the surface, in widths of the domain
+const LIGHT = [0.15, -0.45, 0.88];                   // towards the lamp
+const SHADOW = 0.4;
 const RIM = "rgb(0, 0, 0)", TRIED = "#d55e00", SIDES = "#56b4e9";
 
 // -- colours ---------------------------------------------------------------------------

@@ -108,7 +108,7 @@ function makeView() {
   };
   page.panels.forEach(({ canvas }, k) => PANELS[k].turns && makeTurnable(canvas, eye, () => draw(k)));
   const sizes = new ResizeObserver(drawAll), forgetTheme = watchTheme(drawAll);
-  sizes.observe(page.root);
+  page.panels.forEach(({ canvas }) => sizes.observe(canvas));
   page.root.shown = () => shown;                     // for other scripts, and tests
   return { root: page.root, show, stop: () => (sizes.disconnect(), forgetTheme()) };
 }
@@ -134,6 +134,7 @@ function describe({ panels, table, title, note }, shown) {
   const name = !frame ? "start" : film ? `${film} ${frame}` : "adapted";
   title.textContent = scene.title;
   note.hidden = !film;
+  note.classList.toggle("long", scene.traced);
   note.textContent = !frame ? "The start mesh." : mesh.tried ? triedText(mesh, scene, frame)
     : `After ${film} ${frame}.`;
   fillTable(table, numbers.map(([label, , text], k) => [label, atStart[k][2], text]), name);
