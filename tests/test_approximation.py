@@ -7,13 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems
+from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems, refined
 from meshlib.approximation import samples, sizes, strategy
-from meshlib.approximation.division import divide
+from meshlib.approximation.division import bisect, divide
 from meshlib.approximation.draft import Draft
-from meshlib.approximation.misfit import Misfit, rule
+from meshlib.approximation.misfit import Misfit, half_slopes, powers, rule
 from meshlib.approximation.moves import _Sweep, move
 from meshlib.approximation.patches import _curvature
+from meshlib.approximation.ridges import in_turn
 from meshlib.approximation.swaps import swap
 from meshlib.choice import independent
 from meshlib.quality import angles
@@ -40,6 +41,12 @@ def scattered(rng, n):
     return np.concatenate([lattice(3, 3), 0.1 + 2.8 * rng.random((n, 2))]) / 3
 
 
+def finely(u_h):
+    """The same function on elements a quarter of the size, whose quadrature sees more."""
+    mesh = refined(u_h.mesh, u_h.values, "abn", 1.0, split="red-green").mesh
+    return Interpolant(mesh, u_h(*mesh.nodes.T))
+
+
 def draft_of(function, mesh):
     return Draft(Misfit(function, 1 / 40), mesh)
 
@@ -60,8 +67,8 @@ def test_every_step_leaves_a_valid_mesh_that_interpolates(domain, ring, rng):
         draft.mesh.validate()
         assert draft.mesh.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
         assert np.array_equal(draft.values, front(*draft.nodes.T))
-        assert draft.error == pytest.approx(
-            Interpolant(draft.mesh, draft.values).l2_error(front, "exact", degree=12), rel=5e-3)
+        u_h = Interpolant(draft.mesh, draft.values)
+        assert draft.error == pytest.approx(finely(u_h).l2_error(front, "exact", degree=12), rel=5e-3)
         seen.append(step)
     strategy.strategy(draft, 150, note)
     assert draft.n_nodes == 150
@@ -110,10 +117,29 @@ def test_a_start_mesh_with_too_many_nodes_loses_some(rng):
     assert approximate(front, 40, domain=start).mesh.validate().n_nodes == 40
 
 
+@pytest.mark.parametrize("function", [front, problems.functions["DD1"]])
 @pytest.mark.parametrize("angle", [10, 20, 30])
-def test_no_angle_below_the_limit(angle):
-    found = approximate(front, 120, min_angle=angle)
+def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
+    found = approximate(function, 120, min_angle=angle)
     assert np.degrees(angles(found.mesh.corners).min()) >= angle - 1e-9
+    assert found.mesh.n_nodes == 120
+
+
+def test_bisections_leave_angles_as_they_were():
+    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they are made."""
+    draft = Draft(Misfit(front, 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
+    while draft.n_nodes < 200:
+        before = draft.n_nodes
+        assert 0 < bisect(draft, 200 - before) == draft.n_nodes - before
+    draft.mesh.validate()
+    assert np.degrees(angles(draft.mesh.corners)).min() == pytest.approx(45)
+
+
+def test_an_element_that_would_be_refused_has_an_error_where_a_mesh_has_it():
+    corners, values = np.array([[[0., 0], [1, 0], [0.5, 1e-6]]]), np.zeros((1, 3))
+    misfit = Misfit(lambda x, y: 1 + 0 * x, 1 / 40)
+    assert misfit.on_elements(corners, values) == [np.inf]
+    assert misfit.on_elements(corners, values, is_new=False) == pytest.approx(5e-7)
 
 
 def test_the_history_tells_every_step():
@@ -137,10 +163,58 @@ def test_the_error_is_near_the_limit(function, limit, most):
     assert 0.85 < error * found.mesh.n_elements / limit < most
 
 
-def test_a_ridge_along_a_diagonal_gets_strips():
-    """SR2 depends on x + y alone: parallel strips give .4347 over the square of their number."""
-    u = problems.functions["SR2"]
-    assert approximate(u, 200).error < 1.25 * 0.4347 / 99 ** 2
+@pytest.mark.parametrize("name, strips", [("SR1", 0.0966), ("SR2", 0.4347)])
+def test_a_function_of_one_direction_gets_three_quarters_of_the_error_of_strips(name, strips):
+    """Parallel strips give the constant over the square of their number, here 199."""
+    found = approximate(problems.functions[name], 400)
+    assert found.mesh.validate().boundary_nodes.all()
+    assert found.error / (strips / 199 ** 2) == pytest.approx(0.75, abs=0.01)
+
+
+def test_nodes_in_turn_in_figures():
+    """Of u = x^2, elements over two spacings h have d = 2 (h^2, h^2, 4 h^2), those of strips d = 2 (0, 4h^2, 4h^2).
+
+    The errors are as the roots of sum d^2 + (sum d)^2: of 54 and 96.
+    """
+    def u(x, y):
+        return x ** 2
+    mesh = in_turn(u, np.zeros(2), np.ones(2), 402)
+    error = Interpolant(mesh, u).l2_error(u, "exact")
+    assert error / (2 * np.sqrt(6 / 720) / 200 ** 2) == pytest.approx(0.75, rel=0.02)
+
+
+@pytest.mark.parametrize("direction", [(1, 0), (0, -1), (1, 1), (-1, 2), (3, 1)])
+@pytest.mark.parametrize("low, high", [((0, 0), (1, 1)), ((-1, 2), (3, 2.5))])
+@pytest.mark.parametrize("nodes", [12, 13, 60])
+def test_nodes_in_turn_in_any_direction_and_rectangle(direction, low, high, nodes):
+    low, high = np.array(low, float), np.array(high, float)
+    mesh = in_turn(lambda x, y: np.cos(direction[0] * x + direction[1] * y), low, high, nodes)
+    assert mesh.validate().counts == (nodes, 2 * nodes - 3, nodes - 2)
+    assert mesh.domain_area == pytest.approx(np.prod(high - low))
+
+
+@pytest.mark.parametrize("function", [front, lambda x, y: x + 2 * y, lambda x, y: 0 * x, lambda x, y: x * y])
+def test_other_functions_and_planes_get_no_such_mesh(function):
+    assert in_turn(function, np.zeros(2), np.ones(2), 50) is None
+
+
+@pytest.mark.parametrize("nodes", [155, 160, 165])
+def test_a_little_more_or_fewer_nodes_make_little_difference(nodes):
+    """The limit of this function is B = 3.53."""
+    def circle(x, y):
+        return np.tanh(20 * (np.hypot(x - 0.5, y - 0.5) - 0.3))
+    found = approximate(circle, nodes)
+    assert 0.9 < found.error * found.mesh.n_elements / 3.53 < 1.1
+
+
+@pytest.mark.parametrize("function", [front, FRANKE, problems.functions["SR2"]])
+def test_the_largest_error_is_lower_where_it_is_asked_for(function):
+    mean, largest = (approximate(function, 100, norm=norm) for norm in ("L2", "max"))
+    x, y = np.meshgrid(*[np.linspace(0, 1, 401)] * 2)
+    worst = [np.abs(found.interpolant(x, y) - function(x, y)).max() for found in (mean, largest)]
+    assert worst[1] < 0.95 * worst[0]
+    assert largest.error == pytest.approx(worst[1], rel=0.03)
+    assert largest.history["error"][-1] == largest.error and largest.mesh.validate().n_nodes == 100
 
 
 @given(st.integers(0, 2 ** 32 - 1))
@@ -222,6 +296,7 @@ def test_sides_of_a_domain_with_a_hole(ring):
     ({"domain": "square"}, "domain: the domain is 'square'; give the lower left and the upper right corner "
                            "of a rectangle, or a mesh"),
     ({"min_angle": 40}, "range: min_angle is 40; give degrees from 0 to 30"),
+    ({"norm": "L1"}, "unknown: norm 'L1' is not known"),
     ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
     ({"function": lambda x, y: x[:1]}, "shape: the function returned shape"),
     ({"function": lambda x, y: x + 1j}, "dtype complex128 for points"),
@@ -308,8 +383,10 @@ def test_what_cannot_be_asked(arguments, message):
 # -- what moves go by ------------------------------------------------------------------------
 
 
-def test_the_slope_of_the_error_of_a_patch_is_its_derivative(rng):
+@pytest.mark.parametrize("squarings", [1, 3])
+def test_the_slope_of_the_error_of_a_patch_is_its_derivative(squarings, rng):
     draft = draft_of(FRANKE, delaunay(scattered(rng, 200)))
+    draft.measure(squarings)
     sweep = _Sweep(draft)
     nodes = next(sweep.classes())
     nodes = nodes[draft.side[nodes] == INTERIOR]
@@ -320,6 +397,13 @@ def test_the_slope_of_the_error_of_a_patch_is_its_derivative(rng):
         ahead, behind = (patches.moved(at, FRANKE(*at.T))[0] for at in
                          (draft.nodes[nodes] + frames[:, k], draft.nodes[nodes] - frames[:, k]))
         assert (ahead - behind) / 2 == pytest.approx(slope[:, k], rel=1e-2, abs=1e-3 * abs(slope[:, k]).max())
+
+
+@pytest.mark.parametrize("squarings, power", [(1, 2), (2, 4), (3, 8)])
+def test_powers_by_multiplication(squarings, power):
+    miss = np.linspace(-2, 2, 9)
+    assert powers(miss, squarings) == pytest.approx(miss ** power)
+    assert half_slopes(miss, squarings) == pytest.approx(power / 2 * miss ** (power - 1))
 
 
 def test_the_curvature_is_that_of_a_quadratic_function():

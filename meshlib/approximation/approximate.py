@@ -1,30 +1,28 @@
 """The mesh for a known function: nodes in, the best piecewise linear function out."""
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
 from .. import checks
-from ..delaunay import delaunay
-from ..draws import Draws
 from ..errors import Interrupted, MeshError
 from ..interpolant import Interpolant
 from ..mesh import Mesh
 from ..sides import sides_of
 from ..watching import Watch
-from .collapse import collapse
 from .draft import Draft
 from .misfit import Misfit
+from .ridges import in_turn
 from .samples import Samples
 from .sizes import least
-from .strategy import steps, strategy
+from .starts import corners, fit, start
+from .strategy import LAST_MOVES, SQUARINGS, polish, steps, strategy
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
-CELLS = 3  # of the first lattice along the shorter side of a rectangle
-JITTER = 0.2  # of a cell, by which its inner nodes are moved at random
 RESOLUTION = 40  # spacings along a square as large as the domain, in which features are looked for
 FEWEST, MOST_NODES = 4, 200_000  # nodes between which a tolerance is sought
 LARGEST_MIN_ANGLE = 30.0
-LARGEST_STRETCH = 1e3  # of a rectangle
+NORMS = "L2", "max"
 STEP = np.dtype([("step", "U8"), ("nodes", np.int64), ("elements", np.int64), ("error", np.float64),
                  ("evaluations", np.int64)])
 
@@ -39,13 +37,14 @@ class Approximation:
     values : (N,) ndarray of float64
         The function at the nodes.
     error : float
-        L2 norm of u - u_h over the domain, by the quadrature that led the search.
+        Norm of u - u_h over the domain, by the quadrature or at the points that led the search.
     evaluations : int
         Points at which the function was evaluated.
     history : structured ndarray
         A row for each step: ``step`` (``"grown"``, ``"moved"`` or ``"renewed"``), and what
         there was after it: ``nodes``, ``elements``, ``error``, ``evaluations``.
     seed : int
+    norm : {"L2", "max"}
     """
 
     mesh: Mesh
@@ -54,6 +53,7 @@ class Approximation:
     evaluations: int
     history: np.ndarray = field(repr=False)
     seed: int
+    norm: str = "L2"
 
     @property
     def interpolant(self):
@@ -62,7 +62,7 @@ class Approximation:
 
 
 def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0, progress=False, *,
-                tolerance=None):
+                tolerance=None, norm="L2"):
     """The mesh of so many nodes, or of such an error, whose interpolant is nearest to a function.
 
     Nodes go in where the error is largest, out where they serve least, and move and
@@ -87,9 +87,12 @@ def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0
     progress : bool
         Whether to show a progress bar.
     tolerance : float, optional
-        L2 norm of the error that is to be reached with as few nodes as possible, at most
+        Norm of the error that is to be reached with as few nodes as possible, at most
         MOST_NODES. Meshes are made with several numbers of nodes, so that this takes a few
         times as long.
+    norm : {"L2", "max"}
+        Whether the mean square or the largest of |u - u_h| is to be small. The largest is
+        found by lowering the integral of the eighth power, after the square.
 
     Returns
     -------
@@ -112,6 +115,9 @@ def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0
     missed between its points: elements are divided for quadrature until these lie as
     densely as a fortieth of the domain has it, and long elements along their length.
 
+    A function that is constant along parallel lines gets a mesh of its own on a
+    rectangle, unless angles are limited: all its nodes are on the boundary.
+
     References
     ----------
     .. [mirebeau2010] J.-M. Mirebeau, Optimal meshes for finite elements of arbitrary
@@ -119,6 +125,7 @@ def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0
 
     Examples
     --------
+    >>> from meshlib import delaunay
     >>> def front(x, y):
     ...     return np.tanh(20 * (np.hypot(x, y) - 0.7))
     >>> found = approximate(front, 60)
@@ -131,34 +138,78 @@ def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0
     seed = checks.whole(seed, 0, "seed")
     angle = checks.number(min_angle or 0, "min_angle", 0, LARGEST_MIN_ANGLE + 1e-9, "degrees from 0 to 30")
     function = function if callable(function) else Samples(function, *_box(domain))
+    norm = checks.choice(norm, NORMS, "norm")
+    task = _Task(function, domain, float(np.radians(angle)), norm, seed, progress)
     if (nodes is None) == (tolerance is None):
         raise MeshError("nodes", f"nodes is {nodes} and tolerance is {tolerance}; give one of them")
     if tolerance is None:
-        return _with_nodes(function, checks.whole(nodes, 3, "nodes"), domain, angle, seed, progress)
-    return _within(function, _tolerance(tolerance), domain, angle, seed, progress)
+        return task.with_nodes(checks.whole(nodes, 3, "nodes"))
+    return task.within(_tolerance(tolerance))
 
 
-def _with_nodes(function, nodes, domain, angle, seed, progress):
-    start = _start(domain, nodes, seed)
-    spacing = np.sqrt(start.domain_area) / RESOLUTION
-    draft = Draft(Misfit(function, float(spacing), float(np.radians(angle))), start)
-    _fit(draft, nodes)
-    return _run(draft, nodes, seed, progress)
+@dataclass(frozen=True)
+class _Task:
+    """What is to be approximated, where and how."""
+
+    function: object
+    domain: object
+    sharpest: float
+    norm: str
+    seed: int
+    progress: bool
+
+    def with_nodes(self, nodes):
+        """The mesh of so many nodes."""
+        first = start(self.domain, nodes, self.seed)
+        misfit = Misfit(self.function, float(np.sqrt(first.domain_area) / RESOLUTION), self.sharpest)
+        ridge = self._ridge(misfit, nodes)
+        if ridge is not None:
+            draft = Draft(misfit, ridge, self.norm)
+            return self._run(draft, LAST_MOVES, partial(polish, draft))
+        draft = Draft(misfit, first, self.norm)
+        fit(draft, nodes)
+        return self._run(draft, steps(draft, nodes), partial(strategy, draft, nodes))
+
+    def within(self, tolerance):
+        """The mesh of about the fewest nodes whose error is within the tolerance."""
+        spent = []
+
+        def trial(nodes):
+            found = self.with_nodes(nodes)
+            spent.append(found.evaluations)
+            return found
+        smallest = len(sides_of(start(self.domain, FEWEST, self.seed)).corners)
+        found = least(trial, tolerance, smallest, MOST_NODES)
+        if found is None:
+            raise MeshError("tolerance", f"the tolerance {tolerance} is not reached with {MOST_NODES} nodes; "
+                            "give a larger one")
+        return replace(found, evaluations=sum(spent))
+
+    def _ridge(self, misfit, nodes):
+        """A mesh for a function of one direction, or None."""
+        if isinstance(self.domain, Mesh) or self.sharpest:
+            return None
+        power = 2 ** (SQUARINGS if self.norm == "max" else 1)
+        return in_turn(misfit.values, *corners(self.domain), nodes, power)
+
+    def _run(self, draft, total, adapt):
+        history = []
+        with Watch(self.progress, total, "step") as watch:
+            def note(step):
+                history.append((step, *_state(draft)))
+                watch.report(len(history))
+                if watch.stopped:
+                    raise Interrupted(self._result(draft, history))
+            adapt(note)
+        return self._result(draft, history)
+
+    def _result(self, draft, history):
+        return Approximation(draft.mesh, draft.values, draft.error, draft.misfit.evaluations,
+                             np.array(history, dtype=STEP), self.seed, self.norm)
 
 
-def _within(function, tolerance, domain, angle, seed, progress):
-    spent = []
-
-    def trial(nodes):
-        found = _with_nodes(function, nodes, domain, angle, seed, progress)
-        spent.append(found.evaluations)
-        return found
-    smallest = len(sides_of(_start(domain, FEWEST, seed)).corners)
-    found = least(trial, tolerance, smallest, MOST_NODES)
-    if found is None:
-        raise MeshError("tolerance", f"the tolerance {tolerance} is not reached with {MOST_NODES} nodes; "
-                        "give a larger one")
-    return replace(found, evaluations=sum(spent))
+def _state(draft):
+    return draft.n_nodes, len(draft.elements), draft.error, draft.misfit.evaluations
 
 
 def _tolerance(tolerance):
@@ -169,60 +220,4 @@ def _tolerance(tolerance):
 
 
 def _box(domain):
-    return domain.box if isinstance(domain, Mesh) else _corners(domain)
-
-
-def _run(draft, nodes, seed, progress):
-    history, total = [], steps(draft, nodes)
-    with Watch(progress, total, "step") as watch:
-        def note(step):
-            history.append((step, *_state(draft)))
-            watch.report(len(history))
-            if watch.stopped:
-                raise Interrupted(_result(draft, history, seed))
-        strategy(draft, nodes, note)
-    return _result(draft, history, seed)
-
-
-def _state(draft):
-    return draft.n_nodes, len(draft.elements), draft.error, draft.misfit.evaluations
-
-
-def _result(draft, history, seed):
-    return Approximation(draft.mesh, draft.values, draft.error, draft.misfit.evaluations,
-                         np.array(history, dtype=STEP), seed)
-
-
-def _start(domain, nodes, seed):
-    """The first mesh."""
-    if isinstance(domain, Mesh):
-        return checks.a_mesh(domain)
-    low, high = _corners(domain)
-    size = high - low
-    most = max(1, int(np.sqrt(nodes)) - 1)  # cells
-    shape = np.minimum(np.ceil(CELLS * size / size.min()), most).astype(int)
-    lattice = np.stack(np.meshgrid(*(np.arange(n + 1.0) for n in shape)), axis=-1).reshape(-1, 2)
-    inner = ((lattice > 0) & (lattice < shape)).all(axis=1)
-    lattice[inner] += JITTER * (2 * Draws(seed).uniform((inner.sum(), 2)) - 1)
-    return delaunay(low + lattice / shape * size)
-
-
-def _corners(domain):
-    try:
-        low, high = np.asarray(domain, dtype=float).reshape(2, 2)
-    except (TypeError, ValueError):
-        raise MeshError("domain", f"the domain is {domain!r}; give the lower left and the upper right corner "
-                        "of a rectangle, or a mesh") from None
-    size = high - low
-    if not (np.isfinite(size).all() and (size > 0).all() and size.max() <= LARGEST_STRETCH * size.min()):
-        raise MeshError("domain", f"the rectangle from {low.tolist()} to {high.tolist()} has no area or is "
-                        "too long; give the lower left and the upper right corner")
-    return low, high
-
-
-def _fit(draft, nodes):
-    """Take nodes out of a start mesh that has too many."""
-    while draft.n_nodes > nodes:
-        if not collapse(draft, 1 - nodes / draft.n_nodes):
-            raise MeshError("nodes", f"{nodes} nodes are too few for this domain, {draft.n_nodes} are left; "
-                            "give more")
+    return domain.box if isinstance(domain, Mesh) else corners(domain)

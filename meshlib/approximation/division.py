@@ -5,15 +5,49 @@ from ..sides import INTERIOR
 from ..splitting import SPLITS
 
 WORTH = 0.1  # of the mean error of an element, from which on it is divided
+WORST = 0.3  # of the largest error, from which on an element is bisected
+ALONE = 50  # elements that are tried one by one
 
 
 def divide(draft):
     """Divide the elements that have an error to speak of, red-green; returns whether any was divided."""
-    mesh = draft.mesh
     marked = np.flatnonzero(draft.errors + draft.edge_errors() >= WORTH * draft.errors.mean())
-    elements, parents, ends, _ = SPLITS["red-green"](mesh, marked)
-    whole = np.bincount(parents, minlength=mesh.n_elements) == 1
-    points = mesh.nodes[ends].mean(axis=1)
+    return _split(draft, *SPLITS["red-green"](draft.mesh, marked)[:3]) > 0
+
+
+def bisect(draft, most):
+    """Bisect elements of nearly the largest error at their longest edges; returns how many nodes are new.
+
+    With an edge of an element its longest edge is bisected as well, so that angles
+    stay large; where one would be below the limit nonetheless, fewer are bisected.
+
+    Parameters
+    ----------
+    draft : Draft
+    most : int
+        New nodes at most.
+    """
+    error = draft.errors + draft.edge_errors()
+    order = np.argsort(-error, kind="stable")
+    order = order[error[order] >= WORST * error[order[0]]][:most]
+    tried = [order[:len(order) >> k] for k in range(len(order).bit_length())]
+    for marked in (*tried, *order[1:ALONE, None]):
+        elements, parents, ends, _ = SPLITS["longest-edge"](draft.mesh, np.sort(marked))
+        if len(ends) <= most and _are_allowed(draft, elements, parents, ends):
+            return _split(draft, elements, parents, ends)
+    return 0
+
+
+def _are_allowed(draft, elements, parents, ends):
+    new = np.bincount(parents, minlength=len(draft.elements))[parents] > 1
+    nodes = np.concatenate([draft.nodes, draft.nodes[ends].mean(axis=1)])
+    return draft.misfit.is_allowed(nodes[elements[new]]).all()
+
+
+def _split(draft, elements, parents, ends):
+    """Take over elements with new nodes in the middle of edges; returns how many nodes are new."""
+    whole = np.bincount(parents, minlength=len(draft.elements)) == 1
+    points = draft.nodes[ends].mean(axis=1)
     side = _sides(draft, ends)
     bound = side != INTERIOR
     points[bound] = draft.boundary.snapped(points[bound], side[bound])
@@ -23,7 +57,7 @@ def divide(draft):
     draft.side = np.concatenate([draft.side, side])
     kept = whole[parents]
     draft.settle(np.where(kept, draft.errors[parents], np.nan), ~kept | draft.fresh[parents])
-    return len(ends) > 0
+    return len(ends)
 
 
 def _sides(draft, ends):

@@ -1,4 +1,6 @@
 """A mesh in the making: what operations replace, and the error of each element."""
+from copy import copy
+
 import numpy as np
 
 from ..mesh import Mesh
@@ -19,14 +21,16 @@ class Draft:
     side : (N,) ndarray of int
         Number of the straight side of the domain on which a node lies; INTERIOR or CORNER.
     errors : (T,) ndarray of float
-        Integral of the squared error over each element.
+        Integral of the squared error, or of a higher power, over each element.
     fresh : (T,) ndarray of bool
         Whether an element has changed since its edges were last considered.
     misfit : Misfit
+    norm : {"L2", "max"}
+        Of the error.
     """
 
-    def __init__(self, misfit, mesh):
-        self.misfit, self.nodes, self.elements = misfit, mesh.nodes, mesh.elements
+    def __init__(self, misfit, mesh, norm="L2"):
+        self.norm, self.misfit, self.nodes, self.elements = norm, misfit, mesh.nodes, mesh.elements
         self.boundary = sides_of(mesh)
         self.side = self.boundary.of_node.copy()
         self.values = misfit.values(*(np.ascontiguousarray(v) for v in mesh.nodes.T))
@@ -37,7 +41,7 @@ class Draft:
         self.mesh = Mesh._trusted(self.nodes, self.elements)
         self.errors, self.fresh = errors, fresh
         unknown = np.flatnonzero(np.isnan(errors))
-        self.errors[unknown] = self.error_of(self.elements[unknown])
+        self.errors[unknown] = self.error_of(self.elements[unknown], is_new=False)
 
     @property
     def n_nodes(self):
@@ -46,17 +50,24 @@ class Draft:
 
     @property
     def error(self):
-        """The L2 norm of the error."""
+        """The norm of the error."""
+        if self.norm == "max":
+            return self.misfit.largest(self.nodes[self.elements], self.values[self.elements])
         return float(np.sqrt(self.errors.sum()))
+
+    def measure(self, squarings):
+        """From now on integrate the power 2 ** squarings of the error."""
+        self.misfit.squarings = squarings
+        self.settle(np.full(len(self.elements), np.nan), np.ones(len(self.elements), dtype=bool))
 
     @property
     def weight(self):
         """What a unit of the squared error along the boundary counts as."""
         return BOUNDARY_SHARE * np.sqrt(self.mesh.domain_area / self.n_nodes)
 
-    def error_of(self, elements):
+    def error_of(self, elements, is_new=True):
         """Integral of the squared error over elements given by node numbers, (m, 3)."""
-        return self.misfit.on_elements(self.nodes[elements], self.values[elements])
+        return self.misfit.on_elements(self.nodes[elements], self.values[elements], is_new)
 
     def edge_error_of(self, pairs):
         """Weighted integral of the squared error along edges given by node numbers, (m, 2)."""
@@ -86,6 +97,30 @@ class Draft:
         """The nodes joined to each node."""
         heads, _, starts = around_nodes(self.mesh.edges, self.n_nodes)
         return Rows(heads, starts)
+
+
+class Best:
+    """The best of the states through which a draft goes: most nodes, then the smallest error.
+
+    What counts is the error that is being lowered, be the norm what it may.
+    """
+
+    ARRAYS = "nodes", "values", "elements", "side", "boundary", "errors", "fresh", "mesh"
+
+    def __init__(self, draft):
+        self.draft, self.rank, self.kept = draft, (np.inf, np.inf), None
+
+    def offer(self):
+        """Keep the present state if it is better."""
+        squares = self.draft.misfit.squarings == 1
+        rank = -self.draft.n_nodes, self.draft.errors.sum() if squares else self.draft.error
+        if rank < self.rank:
+            self.rank, self.kept = rank, {name: copy(getattr(self.draft, name)) for name in self.ARRAYS}
+
+    def restore(self):
+        """Go back to the best state."""
+        for name, array in self.kept.items():
+            setattr(self.draft, name, array)
 
 
 class Rows:

@@ -1,4 +1,4 @@
-"""How far u_h is from a known u: integrals of the squared error over elements and along edges."""
+"""How far u_h is from a known u: integrals of a power of the error over elements and along edges."""
 from functools import cache
 
 import numpy as np
@@ -14,6 +14,7 @@ TWELVE = ((0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
 SIX = ((0.44594849091596489, 0.44594849091596489, 0.22338158967801147),
        (0.09157621350977073, 0.09157621350977073, 0.10995174365532187))
 PERMUTATIONS = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2), (0, 2, 1), (2, 1, 0))
+SAMPLED = 8  # parts of each side of a part of an element, at whose ends the largest error is looked for
 ALONG = 4  # Gauss points along a boundary edge
 DEEPEST = 6  # divisions of an element into four
 LONGEST = 2.5  # spacings: how long a part of an element may be
@@ -36,8 +37,25 @@ def rule(level, halvings=0):
     [12, 24, 96]
     """
     points, weights = _points(SIX if level + halvings else TWELVE)
-    parts = np.einsum("sck,pkd->pscd", _slices(2 ** halvings), _parts(level)).reshape(-1, 3, 3)
-    return np.einsum("qk,pkc->pqc", points, parts).reshape(-1, 3), np.tile(weights, len(parts)) / len(parts)
+    parts = _all_parts(level, halvings)
+    return _in_each(parts, points), np.tile(weights, len(parts)) / len(parts)
+
+
+@cache
+def places(level, halvings=0):
+    """Barycentric points of a lattice on each part of an element that is so divided."""
+    i, j = np.array([(i, j) for i in range(SAMPLED + 1) for j in range(SAMPLED + 1 - i)]).T / SAMPLED
+    points = np.stack([i, j, 1 - i - j], axis=1)
+    return _in_each(_all_parts(level, halvings), points)
+
+
+def _in_each(parts, points):
+    return np.einsum("qk,pkc->pqc", points, parts).reshape(-1, 3)
+
+
+def _all_parts(level, halvings):
+    """Corners of the slices of all parts, (n, 3, 3), in barycentric coordinates."""
+    return np.einsum("sck,pkd->pscd", _slices(2 ** halvings), _parts(level)).reshape(-1, 3, 3)
 
 
 def _slices(n):
@@ -67,7 +85,9 @@ def _parts(level):
 
 
 class Misfit:
-    """The squared error of linear interpolants of one function, and how often it was asked for a value.
+    """The error of linear interpolants of one function, and how often it was asked for a value.
+
+    What is integrated is its square, or a higher power when the largest error matters.
 
     Parameters
     ----------
@@ -78,7 +98,14 @@ class Misfit:
         happens between the nodes of a coarse mesh is seen.
     sharpest : float
         Smallest angle of an element that is allowed, in radians.
+
+    Attributes
+    ----------
+    squarings : int
+        How often the error is squared: once for the L2 norm, three times for its eighth power.
     """
+
+    squarings = 1
 
     def __init__(self, function, spacing, sharpest=0.0):
         self.function, self.spacing, self.sharpest = function, spacing, sharpest
@@ -90,29 +117,31 @@ class Misfit:
         self.evaluations += found.size
         return found
 
-    def on_elements(self, corners, values):
-        """Integral of the squared error over each element; infinity for one that is refused.
+    def on_elements(self, corners, values, is_new=True):
+        """Integral of the power of the error over each element; infinity for one that is refused.
 
         Parameters
         ----------
         corners : (m, 3, 2) ndarray of float
         values : (m, 3) ndarray of float
+        is_new : bool
+            Whether elements may be refused: one that a mesh has must have an error.
 
         Returns
         -------
         (m,) ndarray of float64
         """
-        return self._integrals(corners, values, 1, _square)[:, 0]
+        return self._integrals(corners, values, 1, self._powers, is_new)[:, 0]
 
-    def moments(self, corners, values):
-        """The same, and the integrals of u_h - u times the barycentric coordinates, (m, 3)."""
-        found = self._integrals(corners, values, 4, _square_and_moments)
+    def moments(self, corners, values, is_new=True):
+        """The same, and half its slopes in the nodal values, (m, 3): the integrals of (u_h - u) phi of squares."""
+        found = self._integrals(corners, values, 4, self._powers_and_moments, is_new)
         return found[:, 0], found[:, 1:]
 
-    def _integrals(self, corners, values, columns, integrand):
+    def _integrals(self, corners, values, columns, integrand, is_new):
         areas, sides = doubled_areas(corners) / 2, squared_sides(corners)
         found = np.full((len(corners), columns), np.inf)
-        allowed = self._is_allowed(corners, areas, sides)
+        allowed = self.is_allowed(corners) if is_new else np.ones(len(corners), dtype=bool)
         divided = np.where(allowed, self._divisions(areas, sides), -1)
         for kind in np.unique(divided[allowed]):
             points, weights = rule(*divmod(int(kind), MOST_SLICES + 1))
@@ -122,6 +151,29 @@ class Misfit:
                 miss = self._misses(_turned(corners[part], turn), _turned(values[part], turn), points)
                 found[part] = areas[part, None] * integrand(miss, points, weights, turn)
         return found
+
+    def _powers(self, miss, points, weights, turn):
+        return (powers(miss, self.squarings) @ weights)[:, None]
+
+    def _powers_and_moments(self, miss, points, weights, turn):
+        found = np.empty((len(miss), 4))
+        found[:, 0] = powers(miss, self.squarings) @ weights
+        moments = half_slopes(miss, self.squarings) @ (points * weights[:, None])
+        np.put_along_axis(found[:, 1:], turn, moments, axis=1)
+        return found
+
+    def largest(self, corners, values):
+        """Largest absolute error of all elements, at points that lie on their sides as well."""
+        kinds = self._divisions(doubled_areas(corners) / 2, squared_sides(corners))
+        found = 0.0
+        for kind in np.unique(kinds):
+            points = places(*divmod(int(kind), MOST_SLICES + 1))
+            rows = np.flatnonzero(kinds == kind)
+            for part in np.array_split(rows, -(-len(rows) * len(points) // POINTS_AT_ONCE)):
+                turn = _from_longest(squared_sides(corners[part]))
+                miss = self._misses(_turned(corners[part], turn), _turned(values[part], turn), points)
+                found = max(found, np.abs(miss).max())
+        return float(found)
 
     def _misses(self, corners, values, points):
         x, y = corners[..., 0] @ points.T, corners[..., 1] @ points.T
@@ -139,23 +191,25 @@ class Misfit:
         halvings = np.ceil(np.log2(length.clip(min=1))).clip(max=MOST_SLICES)
         return (level * (MOST_SLICES + 1) + halvings).astype(int)
 
-    def _is_allowed(self, corners, areas, sides):
-        allowed = areas > FLATTEST * sides.max(axis=1)
+    def is_allowed(self, corners):
+        """Whether an element is neither too flat nor too sharp."""
+        allowed = doubled_areas(corners) > 2 * FLATTEST * squared_sides(corners).max(axis=1)
         if self.sharpest > 0:
             allowed &= angles(corners).min(axis=1) >= self.sharpest
         return allowed
 
     def on_edges(self, ends, values):
-        """Integral of the squared error along each edge; ends (m, 2, 2), values (m, 2)."""
+        """Integral of the power of the error along each edge; ends (m, 2, 2), values (m, 2)."""
         return self.moments_on_edges(ends, values)[0]
 
     def moments_on_edges(self, ends, values):
-        """The same, and the integrals of u_h - u times the two hats, (m, 2)."""
+        """The same, and half its slopes in the two nodal values, (m, 2)."""
         at, weights = _gauss()
         share = np.stack([1 - at, 1 + at]) / 2
         x, y = ends[..., 0] @ share, ends[..., 1] @ share
         miss, length = values @ share - self.values(x, y), np.hypot(*(ends[:, 1] - ends[:, 0]).T)
-        return length * (miss ** 2 @ (weights / 2)), length[:, None] * (miss @ (share * weights / 2).T)
+        moments = half_slopes(miss, self.squarings) @ (share * weights / 2).T
+        return length * (powers(miss, self.squarings) @ (weights / 2)), length[:, None] * moments
 
 
 @cache
@@ -164,14 +218,19 @@ def _gauss():
     return np.polynomial.legendre.leggauss(ALONG)
 
 
-def _square(miss, points, weights, turn):
-    return (miss ** 2 @ weights)[:, None]
+def powers(miss, squarings):
+    """miss ** (2 ** squarings), by multiplications, which are the same everywhere."""
+    for _ in range(squarings):
+        miss = miss * miss
+    return miss
 
 
-def _square_and_moments(miss, points, weights, turn):
-    found = np.empty((len(miss), 4))
-    found[:, 0] = miss ** 2 @ weights
-    np.put_along_axis(found[:, 1:], turn, miss @ (points * weights[:, None]), axis=1)
+def half_slopes(miss, squarings):
+    """Half the derivative of the same: miss itself for squares."""
+    found = miss * 2.0 ** (squarings - 1)
+    for _ in range(squarings - 1):
+        miss = miss * miss
+        found = found * miss
     return found
 
 

@@ -31,7 +31,7 @@ class _Sweep:
         draft.nodes, draft.values, draft.fresh = draft.nodes.copy(), draft.values.copy(), draft.fresh.copy()
         self.draft, self.around, self.patches = draft, draft.neighbours(), draft.patches()
         self.errors, self.moments = draft.misfit.moments(draft.nodes[draft.elements],
-                                                         draft.values[draft.elements])
+                                                         draft.values[draft.elements], is_new=False)
 
     def classes(self):
         """The nodes that may move, one colour after the other."""

@@ -96,7 +96,14 @@ class Patches:
         force = 2 * self.moments[:, None] * (slope[self.row] - gradient)
         curvature = size[:, None, None] * _curvature(y, z, hessian[self.row])
         total = np.add.reduceat(force, self.starts), np.add.reduceat(curvature, self.starts)
-        return self._with_sides(frames, slope, hessian, *total)
+        force, curvature = self._with_sides(frames, slope, hessian, *total)
+        areas = np.add.reduceat(size * _cross(y, z) / 2, self.starts)
+        return force, curvature * self._steepness(areas)[:, None, None]
+
+    def _steepness(self, areas):
+        """By how much a power of the error curves more than its square: p / 2 times the mean of |e|^(p - 2)."""
+        power = 2 ** self.draft.misfit.squarings
+        return power / 2 * (self.error / areas) ** (1 - 2 / power)
 
     def _differences(self, frames):
         """First and second differences of the function in the frame, about a point inside the domain."""

@@ -6,24 +6,28 @@ this way its good arrangement, the dearest thing to reach, is kept.
 import numpy as np
 
 from .collapse import collapse, settle_on_boundary
-from .division import divide
+from .division import bisect, divide
+from .draft import Best
 from .insertion import insert
 from .moves import move
 from .swaps import swap
 
 GROWTH = 0.25  # of the nodes, inserted at once at most
 FEW_PASSES = 4  # of swaps between two insertions
-SMALLEST = 40  # nodes at which the mesh is improved first
-DIVISION = 4  # times the nodes: that of all elements
+SMALLEST = 40  # nodes of a mesh whose elements are divided
+DIVISION, FEW_DIVISION = 4, 2  # times the nodes at which the mesh was improved before; with few nodes
 EARLY_ROUNDS, ROUNDS, LAST_MOVES = 3, 8, 4
 MANY = 1600  # nodes, from which on there are no more rounds than that
 MOST_TIMES = 3  # as many rounds with few nodes
 TAKEN_OUT = 0.2  # of the nodes in the first round, less in each further one
+SQUARINGS = 3  # of the error, whose integral is lowered where the largest error matters
+LEVELLINGS = 8  # rounds of it
 
 
 def steps(draft, n_nodes):
     """How many steps there will be."""
-    return sum(2 * rounds + 2 for _, rounds in _sizes(draft, n_nodes)) + LAST_MOVES
+    levellings = 2 * LEVELLINGS * (draft.norm == "max")
+    return sum(2 * rounds + 2 for _, rounds in _sizes(draft, n_nodes)) + LAST_MOVES + levellings
 
 
 def strategy(draft, n_nodes, note):
@@ -34,23 +38,44 @@ def strategy(draft, n_nodes, note):
         note("grown")
         improved(draft)
         note("moved")
-        for k in range(rounds):
-            renewed(draft, size, TAKEN_OUT * (1 - k / rounds))
-            note("renewed")
-            improved(draft)
-            note("moved")
+        in_rounds(draft, size, rounds, note)
+    polish(draft, note)
+    if draft.norm == "max":
+        draft.measure(SQUARINGS)
+        in_rounds(draft, n_nodes, LEVELLINGS, note)
+
+
+def in_rounds(draft, n_nodes, rounds, note):
+    """Renew a part of the nodes in each round, less and less of them, and go back to the best state."""
+    best = Best(draft)
+    best.offer()
+    for k in range(rounds):
+        renewed(draft, n_nodes, TAKEN_OUT * (1 - k / rounds))
+        note("renewed")
+        improved(draft)
+        note("moved")
+        best.offer()
+    best.restore()
+
+
+def polish(draft, note):
+    """Move all nodes a few times."""
     for _ in range(LAST_MOVES):
         improved(draft)
         note("moved")
 
 
 def _sizes(draft, n_nodes):
-    """Numbers of nodes at which the mesh is improved, each a quarter of the next, and the rounds at each."""
+    """Numbers of nodes at which the mesh is improved, each a quarter or half of the next, and the rounds."""
     sizes = [n_nodes]
-    while sizes[0] / DIVISION > max(draft.n_nodes, SMALLEST):
-        sizes.insert(0, int(sizes[0] / DIVISION))
+    while not draft.misfit.sharpest and (before := _before(sizes[0])) > draft.n_nodes:
+        sizes.insert(0, before)
     more = np.clip(np.sqrt(MANY / n_nodes), 1, MOST_TIMES)
     return [*((size, EARLY_ROUNDS) for size in sizes[:-1]), (n_nodes, round(more * ROUNDS))]
+
+
+def _before(n_nodes):
+    return n_nodes // (DIVISION if n_nodes >= DIVISION * SMALLEST else FEW_DIVISION)
 
 
 def divided(draft, n_nodes):
@@ -62,12 +87,23 @@ def divided(draft, n_nodes):
 
 def grown(draft, n_nodes):
     """Insert nodes until there are so many."""
+    grow = _bisected if draft.misfit.sharpest else _inserted
     inserted = True
     while inserted and draft.n_nodes < n_nodes:
-        inserted = insert(draft, min(n_nodes - draft.n_nodes, max(1, int(GROWTH * draft.n_nodes))))
-        swap(draft, FEW_PASSES)
+        inserted = grow(draft, min(n_nodes - draft.n_nodes, max(1, int(GROWTH * draft.n_nodes))))
         settle_on_boundary(draft)
     swap(draft)
+
+
+def _inserted(draft, most):
+    found = insert(draft, most)
+    swap(draft, FEW_PASSES)
+    return found
+
+
+def _bisected(draft, most):
+    """Where angles are limited: swaps in between would leave elements that cannot be split any more."""
+    return bisect(draft, most) or insert(draft, most)
 
 
 def improved(draft):
