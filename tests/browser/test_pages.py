@@ -1,9 +1,9 @@
 """Every page of the built book in a real browser, from a server and from the disk."""
 import pytest
 from conftest import SITE
-from visiting import explorers_of, served, watched
+from visiting import explorers_of, pages_of, served, watched
 
-PAGES = sorted(str(path.relative_to(SITE)) for path in SITE.rglob("*.html") if "_static" not in path.parts)
+PAGES = pages_of(SITE)
 EXPLORERS = {"notebooks/03-methods.html": 1, "notebooks/05-results.html": 2,
              "notebooks/06-modifications.html": 2, "notebooks/07-further-work.html": 1}
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import SITE
-from visiting import PLACES, READY_SECONDS, explorers_of, shown, visited
+from visiting import PLACES, READY_SECONDS, explorers_of, pages_of, shown, visited
 
 from meshlib import criteria, quality
 from meshlib.thesis import explorers
@@ -242,8 +242,7 @@ def axe(tmp_path_factory):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("name", sorted(str(path.relative_to(SITE)) for path in SITE.rglob("*.html")
-                                        if "_static" not in path.parts))
+@pytest.mark.parametrize("name", pages_of(SITE))
 def test_no_page_has_a_serious_fault(chromium, site, axe, name, scheme):
     with chromium.new_page(color_scheme=scheme) as page:
         page.goto((site / name).as_uri(), timeout=1000 * READY_SECONDS)

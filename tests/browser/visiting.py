@@ -63,6 +63,13 @@ def watched(page, address):
     return wrong
 
 
+def pages_of(site):
+    """The pages of a site, but for those that only lead to another one."""
+    pages = [path for path in site.rglob("*.html") if "_static" not in path.parts]
+    return sorted(str(path.relative_to(site)) for path in pages
+                  if 'http-equiv="refresh"' not in path.read_text(encoding="utf-8")[:1000].lower())
+
+
 def explorers_of(page):
     """The explorers of a page once they are there."""
     found = page.locator("[class*=tag_explorer-]")
