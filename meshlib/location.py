@@ -58,7 +58,7 @@ class _Buckets:
     def _cell(self, points):
         """Column and row of points in the bounding box, n of each however flat the domain."""
         share = (points - self.low) / (self.high - self.low)
-        return np.floor(share * self.n).astype(np.int64).clip(0, self.n - 1)
+        return np.floor(share * self.n).astype(np.intp).clip(0, self.n - 1)
 
     def _boxes(self):
         """First cell, width and height in cells of each bounding box."""

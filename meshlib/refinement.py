@@ -105,7 +105,7 @@ def _by_parent(elements, parents, green):
         place = np.empty_like(order)
         place[order] = np.arange(len(order))
         green = place[green]
-    return elements.take(order, axis=0), parents.take(order).astype(np.int64), green
+    return elements.take(order, axis=0), parents.take(order).astype(np.intp), green
 
 
 def _with_means(values, corners):

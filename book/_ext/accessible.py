@@ -17,10 +17,11 @@ MENDED = {
 
 
 def mend(app, exception):
-    """Mend all pages of a finished HTML build."""
+    """Mend all pages of a finished HTML build; other programs beside them stay as they are."""
     if exception or app.builder.format != "html":
         return
-    for path in Path(app.outdir).rglob("*.html"):
+    pages = [path for folder in (".", "book", "notebooks") for path in Path(app.outdir, folder).glob("*.html")]
+    for path in pages:
         mend_page(path)
 
 

@@ -55,7 +55,7 @@ def plot_surface(ax, surface, limits=None, view=None):
     own_edges = surface is u_h
     facets = Poly3DCollection(corners, facecolors=colours, edgecolors=INK if own_edges else colours,
                               linewidths=EDGE_WIDTH / 2, clip_on=False)
-    ax.add_collection3d(facets, autolim=False)
+    ax.add_collection3d(facets)
     _box(ax, u_h.mesh, limits, view)
     return facets
 

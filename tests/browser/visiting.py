@@ -64,8 +64,9 @@ def watched(page, address):
 
 
 def pages_of(site):
-    """The pages of a site, but for those that only lead to another one."""
-    pages = [path for path in site.rglob("*.html") if "_static" not in path.parts]
+    """The pages of a site, but for other people's programs and those that only lead to another page."""
+    pages = [path for path in site.rglob("*.html")
+             if path.relative_to(site).parts[0] not in ("_static", "lite")]
     return sorted(str(path.relative_to(site)) for path in pages
                   if 'http-equiv="refresh"' not in path.read_text(encoding="utf-8")[:1000].lower())
 

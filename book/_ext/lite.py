@@ -1,0 +1,98 @@
+"""Put JupyterLite beside the pages: the notebooks as real Python in the browser.
+
+The folder ``lite`` of the site holds JupyterLite, the notebooks, and wheels of the
+library and of what Pyodide lacks.  Pyodide itself comes from its content delivery
+network when a reader starts a kernel, or from the site if the environment variable
+``MESHLIB_PYODIDE`` names a folder with the files of that release.
+"""
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from shutil import copytree, rmtree
+from tempfile import TemporaryDirectory
+
+import nbformat
+from wheels import all_wheels
+
+PYODIDE_VERSION = "0.27.7"
+PYODIDE_URL = f"https://cdn.jsdelivr.net/pyodide/v{PYODIDE_VERSION}/full/pyodide.js"
+OWN_PYODIDE = "./static/pyodide/pyodide.js"
+KERNEL = "@jupyterlite/pyodide-kernel-extension"
+EXTENSIONS = [KERNEL, "@jupyter-widgets/jupyterlab-manager", "anywidget"]
+KERNELSPEC = {"name": "python", "display_name": "Python (Pyodide)", "language": "python"}
+APPS = ["notebooks", "tree", "lab", "edit"]
+INSTALL = "%pip install -q 'data-dependent-mesh[fem,plot,widgets]'"
+NOTE = "JupyterLite: the library and what it needs, once in each session."
+# What the page on performance reads.
+DATA = ["benchmarks/*.py", "benchmarks/*.json"]
+
+
+def build_lite(app, exception):
+    """Build the folder ``lite`` of a finished HTML site."""
+    if exception or app.builder.format != "html":
+        return
+    root, target = Path(app.srcdir), Path(app.outdir, "lite")
+    rmtree(target, ignore_errors=True)
+    with TemporaryDirectory() as folder:
+        _prepare(root, Path(folder))
+        _run_jupyterlite(Path(folder), target)
+
+
+def _prepare(root, folder):
+    """What JupyterLite is made from: notebooks with their data, wheels, Pyodide, settings."""
+    wheels = folder / "pypi"
+    wheels.mkdir()
+    all_wheels(root, wheels)
+    for path in sorted(root.glob("notebooks/*.ipynb")):
+        _write(folder / "files/notebooks" / path.name, nbformat.writes(installing(nbformat.read(path, 4))))
+    for path in (path for pattern in DATA for path in root.glob(pattern)):
+        _write(folder / "files" / path.relative_to(root), path.read_text())
+    if own := os.environ.get("MESHLIB_PYODIDE"):
+        copytree(own, folder / "static/pyodide")
+    _write(folder / "jupyter-lite.json", json.dumps(settings(OWN_PYODIDE if own else PYODIDE_URL)))
+    _write(folder / "jupyter_lite_config.json", json.dumps(build_options()))
+
+
+def installing(notebook):
+    """The notebook with a first cell that installs the library."""
+    cell = nbformat.v4.new_code_cell(f"# {NOTE}\n{INSTALL}", id="install")
+    notebook.cells.insert(0, cell)
+    notebook.metadata.kernelspec = nbformat.from_dict(KERNELSPEC)
+    return notebook
+
+
+def settings(pyodide_url):
+    """Settings of JupyterLite: where Pyodide is; and that no package index is asked."""
+    kernel = {"pyodideUrl": pyodide_url, "disablePyPIFallback": True}
+    return {"jupyter-lite-schema-version": 0,
+            "jupyter-config-data": {"appName": "Data dependent meshes", "exposeAppInBrowser": True,
+                                    "litePluginSettings": {f"{KERNEL}:kernel": kernel}}}
+
+
+def _write(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+
+
+def build_options():
+    """Nothing but the named extensions goes in, whatever else the environment has."""
+    installed = Path(sys.prefix, "share/jupyter/labextensions")
+    return {"LiteBuildConfig": {
+        "apps": APPS, "contents": ["files"], "no_libarchive": True, "no_sourcemaps": True,
+        "no_unused_shared_packages": True, "ignore_sys_prefix": ["federated_extensions"],
+        "federated_extensions": [str(installed / name) for name in EXTENSIONS]}}
+
+
+def _run_jupyterlite(folder, target):
+    done = subprocess.run([sys.executable, "-m", "jupyterlite_core", "build", "--output-dir", str(target)],
+                          cwd=folder, capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(f"JupyterLite was not built:\n{done.stdout}\n{done.stderr}")
+
+
+def setup(app):
+    """Register the building step with Sphinx."""
+    app.connect("build-finished", build_lite)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,121 @@
+"""The chapters as real Python in the browser: Pyodide says what the notebooks store.
+
+Two chapters by default, all of them with MESHLIB_LITE=all, which takes half an hour.
+"""
+import functools
+import os
+import shutil
+import threading
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import nbformat
+import pytest
+from pyodide_files import RELEASE, Unavailable, folder
+
+ROOT = Path(__file__).parents[2]
+SITE, NOTEBOOKS = ROOT / "_build" / "html", ROOT / "notebooks"
+EVERY = sorted(path.stem for path in NOTEBOOKS.glob("*.ipynb"))
+CHAPTERS = EVERY if os.environ.get("MESHLIB_LITE") == "all" else ["03-methods", "08-conclusions"]
+NETWORK = f"https://cdn.jsdelivr.net/pyodide/v{RELEASE}/full/"
+SECONDS = 1800
+# The current notebook, once its kernel runs; its cells as JSON after running them all.
+READY = "() => window.jupyterapp?.shell.currentWidget?.context?.isReady"
+RUN = """async seconds => {
+    const { commands, shell } = window.jupyterapp, notebook = shell.currentWidget;
+    await notebook.sessionContext.ready;
+    const late = new Promise((_, fail) => setTimeout(() => fail(new Error('too slow')), 1000 * seconds));
+    await Promise.race([commands.execute('notebook:run-all-cells'), late]);
+    return JSON.stringify(notebook.content.model.toJSON()); }"""
+ONCE_ON_STDERR = "Matplotlib is building the font cache"
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    """Serves a folder, without a log."""
+
+    def log_message(self, *_):
+        """Nothing."""
+
+
+@pytest.fixture(scope="module")
+def address():
+    """Where the built site is served on this machine."""
+    if not (SITE / "lite").exists():
+        pytest.skip("the book is not built: make book")
+    with ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=SITE)) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+        thread.join()
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    """A browser without a window."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+    if not (program := shutil.which("chromium")):
+        pytest.skip("no browser: apt-get install chromium")
+    with playwright.sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def pyodide():
+    """The folder that stands for the content delivery network."""
+    try:
+        return folder()
+    except Unavailable as reason:
+        pytest.skip(f"without Pyodide {RELEASE} no chapter ran in the browser: {reason}")
+
+
+@pytest.fixture
+def lite(chromium, address, pyodide):
+    """A page, and a list to which a request to a third host is added."""
+    context, elsewhere = chromium.new_context(), []
+
+    def answer(route):
+        file = pyodide / route.request.url.removeprefix(NETWORK)
+        if file.is_file():
+            route.fulfill(path=file, headers={"Access-Control-Allow-Origin": "*"})
+        else:
+            elsewhere.append(route.request.url)
+            route.abort()
+    context.route(lambda url: not url.startswith((address, "data:", "blob:")), answer)
+    yield context.new_page(), elsewhere
+    context.close()
+
+
+def said(cell):
+    """What a code cell printed, returned or failed with, without pictures and controls."""
+    found = []
+    for output in cell.outputs:
+        if output.output_type == "stream":
+            found.append((output.name, output.text))
+        elif output.output_type == "error":
+            found.append((output.ename, output.evalue))
+        else:
+            found += sorted((kind, text) for kind, text in output.data.items()
+                            if not kind.startswith(("image/", "application/")))
+    return [(kind, text) for kind, text in found if not text.startswith(ONCE_ON_STDERR)]
+
+
+def code_cells(notebook):
+    return [cell for cell in notebook.cells if cell.cell_type == "code"]
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS)
+def test_a_chapter_says_in_the_browser_what_its_notebook_stores(lite, address, chapter):
+    page, elsewhere = lite
+    page.goto(f"{address}/notebooks/{chapter}.html")
+    page.goto(page.locator(".dropdown-launch-buttons a").first.evaluate("link => link.href"))
+    page.wait_for_function(READY)
+    install, *ran = code_cells(nbformat.reads(page.evaluate(RUN, SECONDS), 4))
+    stored = code_cells(nbformat.read(NOTEBOOKS / f"{chapter}.ipynb", 4))
+    assert said(install) == []
+    assert [cell.execution_count for cell in ran] == list(range(2, len(stored) + 2))
+    for cell, before in zip(ran, stored, strict=True):
+        assert said(cell) == said(before), before.source
+    assert elsewhere == []
