@@ -20,9 +20,9 @@ def mend(app, exception):
     """Mend all pages of a finished HTML build; other programs beside them stay as they are."""
     if exception or app.builder.format != "html":
         return
-    pages = [path for folder in (".", "book", "notebooks") for path in Path(app.outdir, folder).glob("*.html")]
-    for path in pages:
-        mend_page(path)
+    for folder in (".", "book", "notebooks"):
+        for path in Path(app.outdir, folder).glob("*.html"):
+            mend_page(path)
 
 
 def mend_page(path):
