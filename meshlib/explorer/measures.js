@@ -2,7 +2,9 @@
 
 const EQUILATERAL = Math.PI / 3, DEGREE = Math.PI / 180;
 const ON_EDGE = 1e-9;                                // a grid point so far outside is on the edge
-const FLAT = 1e-12;                                  // area over squared size of what rounding made an element
+const FLAT = 1e-12;                                  // area over squared size, of rounding alone
+
+const sum = (numbers) => numbers.reduce((total, number) => total + number, 0);
 
 // The mesh of a frame: coordinates of the atlas, elements, and edges with their two elements.
 function meshOf({ atlas }, { elements, swaps, tried }) {
@@ -130,7 +132,8 @@ const ELEMENT_COSTS = {
 
 // Of an inner edge by the elements that meet there; 0 on the boundary.
 function edgeCost(mesh, name, e) {
-  const [p, q] = [mesh.ends[2 * e], mesh.ends[2 * e + 1]], [s, t] = [mesh.sides[2 * e], mesh.sides[2 * e + 1]];
+  const [p, q] = [mesh.ends[2 * e], mesh.ends[2 * e + 1]];
+  const [s, t] = [mesh.sides[2 * e], mesh.sides[2 * e + 1]];
   return t < 0 ? 0 : costBetween(mesh, name, p, q, opposite(mesh, s, p, q), opposite(mesh, t, p, q));
 }
 
@@ -139,9 +142,9 @@ function costBetween(mesh, name, p, q, l, r) {
 }
 
 // Cost vectors as the norms measure them; of the lexicographic order the first entry.
-const sum = (costs) => costs.reduce((total, cost) => total + cost, 0);
-const NORMS = { 1: sum, 2: (costs) => sum(costs.map((cost) => cost * cost)), max: (costs) => Math.max(...costs),
-                lexicographic: (costs) => Math.max(...costs) };
+const largest = (costs) => Math.max(...costs);
+const NORMS = { 1: sum, 2: (costs) => sum(costs.map((cost) => cost * cost)), max: largest,
+                lexicographic: largest };
 
 // Of the five edges, or the two elements, of a quadrilateral.
 function localCost(mesh, { cost, on, norm }, corners) {
@@ -162,7 +165,8 @@ function localCost(mesh, { cost, on, norm }, corners) {
 function triedCosts(mesh, scene) {
   const { a, b, c, d, accepted } = mesh.tried, elements = mesh.elements.slice();
   swap(elements, accepted ? { a: c, b: d, c: a, d: b } : mesh.tried, mesh);
-  const pair = [mesh, { ...mesh, elements, ...edgesOf(elements) }].map((m) => localCost(m, scene, [a, b, c, d]));
+  const pair = [mesh, { ...mesh, elements, ...edgesOf(elements) }]
+    .map((m) => localCost(m, scene, [a, b, c, d]));
   return accepted ? pair.reverse() : pair;
 }
 
@@ -179,7 +183,7 @@ function anglesOf({ x, y, elements }, t) {
 function aspectRatio({ x, y, elements }, t) {
   const [p, q, r] = elements.subarray(3 * t, 3 * t + 3);
   const area = (x[q] - x[p]) * (y[r] - y[p]) - (x[r] - x[p]) * (y[q] - y[p]);
-  const squares = [[p, q], [q, r], [r, p]].reduce((s, [m, n]) => s + (x[m] - x[n]) ** 2 + (y[m] - y[n]) ** 2, 0);
+  const squares = sum([[p, q], [q, r], [r, p]].map(([m, n]) => (x[m] - x[n]) ** 2 + (y[m] - y[n]) ** 2));
   return 2 * Math.sqrt(3) * area / squares;
 }
 

@@ -1,88 +1,84 @@
-// On a page without a kernel: native controls for the precomputed scenes of an atlas.
+// On a page without a kernel: the precomputed scenes of an atlas, by native controls.
 
-const TICK = 350;                                    // milliseconds between frames of a film
-const READY = "explorer-ready";                      // told to the page once an explorer is there
-
-// Menu or slider for one control of an atlas; `value` is the number of its option.
-function makeControl({ label, kind, texts, values }, initial, id) {
-  const said = element("output", { htmlFor: id }), first = Math.max(values.indexOf(initial), 0);
-  const input = kind === "menu"
-    ? element("select", { id }, ...texts.map((textContent, value) => element("option", { textContent, value })))
-    : element("input", { id, type: "range", min: 0, max: texts.length - 1, step: 1 });
-  input.value = first;
-  const tell = () => {
-    said.textContent = texts[input.value];
-    input.setAttribute("aria-valuetext", texts[input.value]);
-  };
-  if (kind !== "menu") {
-    tell();
-    input.addEventListener("input", tell);
-  }
-  const caption = element("label", { textContent: label, htmlFor: id });
-  return { input, row: element("div", { className: `control ${kind}` }, caption, input, kind === "menu" ? "" : said) };
-}
-
-// Slider with a button that plays the film, or with reduced motion goes on by one frame.
-function makeFilm(film, id) {
-  const still = window.matchMedia("(prefers-reduced-motion: reduce)");
-  const { input, row } = makeControl({ label: film || "mesh", kind: "slider", texts: ["0"], values: ["0"] }, "0", id);
-  const button = element("button", { type: "button", className: "play" }), said = row.querySelector("output");
-  let timer = null;
-  const name = () => {
-    button.textContent = timer ? "Pause" : still.matches ? "Next" : "Play";
-  };
-  const go = (frame) => {
-    input.value = frame;
-    input.dispatchEvent(new Event("input", { bubbles: true }));
-  };
-  const stop = () => (clearInterval(timer), timer = null, name());
-  const advance = () => (Number(input.value) < Number(input.max) ? go(Number(input.value) + 1) : stop());
-  button.addEventListener("click", () => {
-    if (timer) return stop();
-    if (Number(input.value) === Number(input.max)) go(0);
-    if (still.matches) return advance();
-    timer = setInterval(advance, TICK);
-    name();
-  });
-  still.addEventListener("change", stop);
-  name();
-  const tell = () => {
-    said.textContent = film ? `${input.value} of ${input.max}` : ["start", "adapted"][input.value];
-    input.setAttribute("aria-valuetext", said.textContent);
-  };
-  input.addEventListener("input", tell);
-  if (film) {
-    row.classList.add("film");
-    row.insertBefore(button, input);
-  }
-  return { input, row, stop, tell };
-}
+const PREFIX = "#explorer-", TAG = "tag_explorer-";
 
 // All controls of an atlas, the view below them, and what joins them.
 function makePage(atlas) {
   const { name, controls, initial, film } = atlas.header, view = makeView();
   const made = controls.map((c) => makeControl(c, initial[c.name], `${name}-${c.name}`));
-  const frames = makeFilm(film, `${name}-frame`);
-  const form = element("form", { className: "mesh-controls" }, ...made.map((m) => m.row), frames.row);
-  form.setAttribute("aria-label", "Settings of the explorer");
-  form.addEventListener("submit", (event) => event.preventDefault());
+  const frames = makeFilm(film, `${name}-frame`), link = makeLink();
   let scene, atEnd = true;                           // an adapted mesh stays one when settings change
-  const choose = () => {
-    const place = made.reduce((sum, { input }, k) => sum * controls[k].values.length + Number(input.value), 0);
-    scene = sceneAt(atlas, atlas.index[place]);
-    frames.input.max = scene.frames - 1;
-    frames.input.value = atEnd ? scene.frames - 1 : Math.min(Number(frames.input.value), scene.frames - 1);
-    frames.tell();
+  const show = () => {
     view.show(scene, Number(frames.input.value));
+    link.hash = hashOf(name, controls, made, atEnd ? null : frames.input.value);
+  };
+  const choose = () => {
+    scene = sceneAt(atlas, atlas.index[placeOf(controls, made)]);
+    frames.input.max = scene.frames - 1;             // where the slider stops, if it was beyond
+    if (atEnd) frames.input.value = scene.frames - 1;
+    frames.tell();
+    disableIdle(atlas, controls, made);
+    show();
   };
   made.forEach(({ input }) => input.addEventListener("input", () => (frames.stop(), choose())));
-  frames.input.addEventListener("input", () => {
-    atEnd = frames.input.value === frames.input.max;
-    view.show(scene, Number(frames.input.value));
-  });
+  frames.input.addEventListener("input", () => (atEnd = frames.input.value === frames.input.max, show()));
+  const follow = () => {
+    const wanted = wantedIn(location.hash, name);
+    if (!wanted) return false;
+    controls.forEach((c, k) => made[k].set(wanted.get(c.name)));
+    atEnd = !wanted.has("frame");
+    choose();
+    if (!atEnd) (frames.input.value = wanted.get("frame"), frames.tell(), show());
+    return true;
+  };
   choose();
-  return element("div", { className: "mesh-page" }, form, view.root);
+  window.addEventListener("hashchange", follow);
+  view.tools.append(link);
+  return { root: element("div", { className: "mesh-page" }, formOf([...made, frames]), view.root), follow };
 }
+
+function formOf(parts) {
+  const form = element("form", { className: "mesh-controls" }, ...parts.map(({ row }) => row));
+  form.setAttribute("aria-label", "Settings of the explorer");
+  form.addEventListener("submit", (event) => event.preventDefault());
+  return form;
+}
+
+// The place of the settings among all, the last control the fastest; one of them may differ.
+function placeOf(controls, made, other = null, value = 0) {
+  return made.reduce((place, { input }, k) =>
+    place * controls[k].values.length + (k === other ? value : Number(input.value)), 0);
+}
+
+// Greys out what has no effect: all options of the control lead to the same scene.
+function disableIdle(atlas, controls, made) {
+  made.forEach(({ input }, k) => {
+    const scenes = controls[k].values.map((_, value) => atlas.index[placeOf(controls, made, k, value)]);
+    input.disabled = scenes.every((scene) => scene === scenes[0]);
+  });
+}
+
+// -- links to a state -------------------------------------------------------------------------
+
+function hashOf(name, controls, made, frame) {
+  const settings = controls.map((c, k) => [c.name, c.values[made[k].input.value]]);
+  if (frame !== null) settings.push(["frame", frame]);
+  return `${PREFIX}${name}?${new URLSearchParams(settings)}`;
+}
+
+function wantedIn(hash, name) {
+  const start = `${PREFIX}${name}?`;
+  return hash.startsWith(start) ? new URLSearchParams(hash.slice(start.length)) : null;
+}
+
+// Leads to the state that is shown; a click also puts the address where it can be pasted.
+function makeLink() {
+  const link = element("a", { textContent: "Link to this state", href: "#" });
+  link.addEventListener("click", () => navigator.clipboard?.writeText(link.href).catch(() => {}));
+  return link;
+}
+
+// -- loading -----------------------------------------------------------------------------------
 
 async function unpacked(text) {
   const packed = atob(text), bytes = new Uint8Array(packed.length);
@@ -91,23 +87,23 @@ async function unpacked(text) {
   return new Response(stream).arrayBuffer();
 }
 
-// An atlas puts its explorer into every cell with its tag, in place of the picture there.
+// An atlas puts its explorer into the cell with its tag, in place of the picture there.
 async function open(name, text) {
   const atlas = decode(await unpacked(text));
-  for (const cell of document.querySelectorAll(`.tag_explorer-${name} .cell_output`)) {
-    const page = makePage(atlas);
-    cell.replaceChildren(page);
-    page.dispatchEvent(new Event(READY, { bubbles: true }));
+  for (const cell of document.querySelectorAll(`.${TAG}${name} .cell_output`)) {
+    const { root, follow } = makePage(atlas);
+    cell.replaceChildren(root);
+    if (follow()) root.scrollIntoView();
   }
 }
 
 // The atlases of the explorers on this page, from files beside this script.
 function load(script) {
-  const tags = Array.from(document.querySelectorAll("[class*=tag_explorer-]"),
-    (cell) => Array.from(cell.classList).find((tag) => tag.startsWith("tag_explorer-")));
+  const tags = Array.from(document.querySelectorAll(`[class*=${TAG}]`),
+    (cell) => Array.from(cell.classList).find((tag) => tag.startsWith(TAG)));
   for (const tag of new Set(tags)) {
-    const name = tag.slice("tag_explorer-".length);
-    document.head.append(element("script", { src: new URL(`explorers/${name}.js`, script) }));
+    const src = new URL(`explorers/${tag.slice(TAG.length)}.js`, script);
+    document.head.append(element("script", { src }));
   }
 }
 

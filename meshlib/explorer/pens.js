@@ -36,8 +36,8 @@ class SvgPen {
 
   // Part of a picture, from sx, sy, in a place on the page.
   drawImage(image, sx, sy, sw, sh, x, y, width, height) {
-    this.parts.push(`<svg x="${x}" y="${y}" width="${width}" height="${height}" viewBox="${sx} ${sy} ${sw} ${sh}"`
-      + ` preserveAspectRatio="none"><image width="${image.width}" height="${image.height}"`
-      + ` href="${image.toDataURL()}"/></svg>`);
+    this.parts.push(`<svg x="${x}" y="${y}" width="${width}" height="${height}"`
+      + ` viewBox="${sx} ${sy} ${sw} ${sh}" preserveAspectRatio="none"><image width="${image.width}"`
+      + ` height="${image.height}" href="${image.toDataURL()}"/></svg>`);
   }
 }

@@ -2,7 +2,8 @@
 from pathlib import Path
 
 HERE = Path(__file__).parent
-SHARED = "atlas.js", "measures.js", "pens.js", "drawing.js", "view.js"
+SHARED = ("atlas.js", "measures.js", "pens.js", "drawing.js", "inspection.js", "saving.js", "panels.js",
+          "view.js")
 
 
 def module():
@@ -12,7 +13,7 @@ def module():
 
 def classic():
     """The script of a page, which unlike a module a browser also loads from a file."""
-    return f"(() => {{\n{_joined(*SHARED, 'page.js')}}})();\n"
+    return f"(() => {{\n{_joined(*SHARED, 'controls.js', 'page.js')}}})();\n"
 
 
 def styles():

@@ -6,6 +6,14 @@ from http import HTTPStatus
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 SUBPATH = "/some/where"  # a site need not be at the root of its host
+PLACES = {"swaps": "03-methods", "refinement": "05-results", "movement": "05-results",
+          "limits": "06-modifications", "orders": "06-modifications", "approximation": "07-further-work"}
+SHOWN = """e => { const shown = e.querySelector('.mesh-explorer').shown(), { mesh } = shown;
+    return { numbers: shown.numbers.map(([label, value]) => [label, value]), frame: shown.frame,
+             title: e.querySelector('.title').textContent,
+             corners: Array.from(mesh.elements, n => [mesh.x[n], mesh.y[n]]),
+             rows: Array.from(e.querySelectorAll('tbody tr'), r => [0, 2].map(k => r.cells[k].textContent)),
+             pictures: Array.from(e.querySelectorAll('canvas'), c => c.toDataURL()) }; }"""
 READY_SECONDS = 20  # on a busy machine; the speed is tested apart
 
 
@@ -55,9 +63,34 @@ def watched(page, address):
     return wrong
 
 
+def pages_of(site):
+    """The pages of a site, but for other people's programs and those that only lead to another page."""
+    pages = [path for path in site.rglob("*.html")
+             if path.relative_to(site).parts[0] not in ("_static", "lite")]
+    return sorted(str(path.relative_to(site)) for path in pages
+                  if 'http-equiv="refresh"' not in path.read_text(encoding="utf-8")[:1000].lower())
+
+
 def explorers_of(page):
     """The explorers of a page once they are there."""
     found = page.locator("[class*=tag_explorer-]")
     for k in range(found.count()):
         found.nth(k).locator(".mesh-page").wait_for(timeout=1000 * READY_SECONDS)
     return [found.nth(k) for k in range(found.count())]
+
+
+def visited(page, site, name, fragment=""):
+    """The explorer of that name, on the page to which the browser is led."""
+    page.goto(f"{site.as_uri()}/notebooks/{PLACES[name]}.html{fragment}")
+    explorers_of(page)
+    return page.locator(f".tag_explorer-{name}")
+
+
+def shown(explorer):
+    """What an explorer shows: numbers, mesh, texts and pictures."""
+    return explorer.evaluate(SHOWN)
+
+
+def elements(corners):
+    """Comparable form of the corners of elements."""
+    return sorted(sorted(map(tuple, element)) for element in corners.round(9).tolist())

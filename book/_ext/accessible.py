@@ -1,0 +1,40 @@
+"""Mend what the theme writes and a screen reader stumbles over.
+
+Names that contradict the text of a button, and a list without items, are taken out of the
+finished pages.
+"""
+from pathlib import Path
+
+MENDED = {
+    'search-button-field search-button__button pst-js-only" title="Search" aria-label="Search"':
+        'search-button-field search-button__button pst-js-only" title="Search"',
+    'data-mode="light" title="Light"': 'data-mode="light"',
+    'data-mode="dark"  title="Dark"': 'data-mode="dark"',
+    'data-mode="auto"  title="System Settings"': 'data-mode="auto"',
+    '<summary aria-label="Toggle hidden content">': "<summary>",
+    '<div role="list" class="citation-list">': '<div class="citation-list">',
+}
+
+
+def mend(app, exception):
+    """Mend all pages of a finished HTML build; other programs beside them stay as they are."""
+    if exception or app.builder.format != "html":
+        return
+    for folder in (".", "book", "notebooks"):
+        for path in Path(app.outdir, folder).glob("*.html"):
+            mend_page(path)
+
+
+def mend_page(path):
+    """Mend one page; a page that is right stays as it is."""
+    before = after = path.read_text(encoding="utf-8")
+    for wrong, right in MENDED.items():
+        after = after.replace(wrong, right)
+    if after != before:
+        path.write_text(after, encoding="utf-8")
+
+
+def setup(app):
+    """Register the step with Sphinx."""
+    app.connect("build-finished", mend)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
