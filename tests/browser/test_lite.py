@@ -4,6 +4,7 @@ Two chapters by default, all of them with MESHLIB_LITE=all, which takes half an 
 """
 import functools
 import os
+import re
 import shutil
 import threading
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -27,6 +28,7 @@ RUN = """async seconds => {
     const late = new Promise((_, fail) => setTimeout(() => fail(new Error('too slow')), 1000 * seconds));
     await Promise.race([commands.execute('notebook:run-all-cells'), late]);
     return JSON.stringify(notebook.content.model.toJSON()); }"""
+MYST = re.compile(r"\{[a-z:]+\}`|`{3}\{|^\([\w-]+\)=", re.MULTILINE)
 ONCE_ON_STDERR = "Matplotlib is building the font cache"
 
 
@@ -112,10 +114,13 @@ def test_a_chapter_says_in_the_browser_what_its_notebook_stores(lite, address, c
     page.goto(f"{address}/notebooks/{chapter}.html")
     page.goto(page.locator(".dropdown-launch-buttons a").first.evaluate("link => link.href"))
     page.wait_for_function(READY)
-    install, *ran = code_cells(nbformat.reads(page.evaluate(RUN, SECONDS), 4))
+    found = nbformat.reads(page.evaluate(RUN, SECONDS), 4)
+    install, *ran = code_cells(found)
     stored = code_cells(nbformat.read(NOTEBOOKS / f"{chapter}.ipynb", 4))
     assert said(install) == []
     assert [cell.execution_count for cell in ran] == list(range(2, len(stored) + 2))
     for cell, before in zip(ran, stored, strict=True):
         assert said(cell) == said(before), before.source
+    prose = [cell.source for cell in found.cells if cell.cell_type == "markdown"]
+    assert not list(filter(MYST.search, prose))
     assert elsewhere == []
