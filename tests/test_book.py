@@ -49,7 +49,7 @@ def test_a_notebook_begins_with_the_installation_and_is_else_the_same():
     lite, nbformat = pytest.importorskip("lite", exc_type=ImportError), pytest.importorskip("nbformat")
     stored = nbformat.read(ROOT / NOTEBOOK, as_version=4)
     first, *rest = lite.installing(nbformat.read(ROOT / NOTEBOOK, as_version=4)).cells
-    assert first.source.endswith("%pip install -q 'data-dependent-mesh[plot,widgets]'")
+    assert first.source.endswith("%pip install -q 'data-dependent-mesh[fem,plot,widgets]'")
     assert rest == stored.cells
 
 

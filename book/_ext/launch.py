@@ -9,7 +9,7 @@ LITE = "lite/notebooks/index.html?path="
 BINDER = "https://mybinder.org/v2/git/"
 COLAB = "https://colab.research.google.com/github/"
 CODE_HOST_OF_COLAB = "https://github.com/"
-REQUIREMENT = "data-dependent-mesh[plot,widgets] @ git+"
+REQUIREMENT = "data-dependent-mesh[fem,plot,widgets] @ git+"
 
 
 def add_launch_menu(app, pagename, templatename, context, doctree):
