@@ -21,12 +21,12 @@ book: $(READY) ## Run the notebooks and build _build/html/index.html
 	$(BIN)/jupyter-book build . --all -W -n --keep-going
 
 # First what plain Python alone can break: test_backends compares both backends by
-# itself, test_properties takes long. Then everything; loadfile keeps a notebook on
-# one kernel.
-test: $(READY) ## Unit tests (both backends), doctests, notebooks against their stored output
+# itself, test_properties takes long, a browser runs no Python. Then everything, with a
+# list of what was skipped; loadfile keeps a notebook on one kernel.
+test: $(READY) ## Unit tests (both backends), doctests, the built book, notebooks against their stored output
 	MESHLIB_BACKEND=python $(BIN)/python -m pytest tests -q -n $(WORKERS) --dist loadfile \
-	    --ignore tests/test_backends.py --ignore tests/test_properties.py
-	$(BIN)/python -m pytest tests meshlib notebooks --doctest-modules \
+	    --ignore tests/test_backends.py --ignore tests/test_properties.py --ignore tests/browser
+	$(BIN)/python -m pytest tests meshlib notebooks --doctest-modules -rs \
 	    --nbval --nbval-current-env -n $(WORKERS) --dist loadfile
 
 notebooks: $(READY) ## Run the notebooks in place and strip what changes from run to run

@@ -1,9 +1,16 @@
-"""Settings of the test run and the start meshes that several files share."""
+"""Settings of the test run, the start meshes that several files share, and a browser."""
+import os
+import shutil
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 
 from meshlib import Mesh, problems
+
+SITE = Path(__file__).parents[1] / "_build" / "html"
+BROWSERS = "chromium", "chromium-browser", "google-chrome"
 
 settings.register_profile("deterministic", deadline=None, derandomize=True, database=None,
                           suppress_health_check=[HealthCheck.too_slow])
@@ -34,3 +41,24 @@ def rng():
 def start(request):
     """Each start mesh of the thesis in turn."""
     return problems.mesh(request.param)
+
+
+@pytest.fixture(scope="session")
+def site():
+    """The folder of the built book."""
+    if not (SITE / "index.html").exists():
+        pytest.skip("the book is not built: make book")
+    return SITE
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    """A browser without a window, that of MESHLIB_BROWSER or the first one found."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+    program = os.environ.get("MESHLIB_BROWSER") or next(filter(None, map(shutil.which, BROWSERS)), None)
+    if not program:
+        pytest.skip("no browser: apt-get install chromium, or set MESHLIB_BROWSER")
+    with playwright.sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        yield browser
+        browser.close()

@@ -1,89 +1,82 @@
 """A live explorer: change a setting, and mesh, error and quality follow at once.
 
-The mathematics (`engine`), the controls (`controls`) and the view (`view`) know
-nothing of each other; `Explorer` joins them.
+What can be chosen (`controls`) and what is to be seen (`scene`) are data. In Jupyter they
+become widgets (`widgets`) and one view (`view`); a page without a kernel has them computed
+beforehand (`atlas`), and draws them with the same scripts (`scripts`).
 """
 import base64
 
-from .engine import Settings, State, state
+from .controls import Control, Exploration, menu, slider
+from .scene import Scene
 
-__all__ = ["Explorer", "Settings", "State", "state"]
+__all__ = ["Control", "Exploration", "Explorer", "Scene", "menu", "slider"]
 
 
 class Explorer:
-    """Controls for function, nodes and adaptation, and a view that follows at once.
-
-    Edges are swapped first, then elements are refined.
+    """Controls for the settings of an exploration, and a view that follows at once.
 
     Parameters
     ----------
-    problem : str
-        Name in `meshlib.problems.functions`.
-    nodes : str
-        Name in `meshlib.problems.names`.
-    criterion : str
-        Cost that swaps are to lower, or ``"none"`` for no swaps.
-    norm : {1, 2, "max", "lexicographic"}
-    min_angle : int
-        Swaps that create an angle below this many degrees, 0 to 30, are refused.
-    fraction : float
-        Share of the elements to refine, from 0 to 1.
-    refine_by : str
-        Cost that chooses them.
-    mark : {"element", "edge", "node", "density"}
-    split : {"red-green", "centroid", "longest-edge"}
-        See `meshlib.refined`.
+    exploration : Exploration
+    **settings
+        Values of some controls, in place of the initial ones.
 
     Attributes
     ----------
-    state : State
-        What is shown: settings, start stage and adapted stage.
+    scene : Scene
+        What is shown.
     controls : dict of ipywidgets.Widget
         By setting; to set one's ``value`` is to use it by hand.
+    frames : ipywidgets.Widget
+        Chooses the frame.
     view : anywidget.AnyWidget
-        Draws the packed state.
+        Draws it.
     widget : ipywidgets.VBox
         All of it, to place among other widgets.
 
     Raises
     ------
     MeshError
-        If a name is not known or a number out of range.
+        If a setting is not known or its value not among the options.
     ImportError
         If ipywidgets or anywidget is not installed.
 
     Examples
     --------
-    >>> explorer = Explorer(problem="SR1", nodes="33")
+    >>> from meshlib.thesis.explorers import SWAPS
+    >>> explorer = Explorer(SWAPS, function="SR1", nodes="33")
     >>> explorer
     Explorer(SR1 on 33 nodes, JND-L2: 88 edges, 17 swaps, L2 error 0.0170)
-    >>> explorer.controls["criterion"].value = "none"
+    >>> explorer.controls["norm"].value = 1
     >>> explorer
-    Explorer(SR1 on 33 nodes: 88 edges, 0 swaps, L2 error 0.0216)
+    Explorer(SR1 on 33 nodes, JND-L1: 88 edges, 26 swaps, L2 error 0.0125)
     """
 
-    def __init__(self, problem="SR1", nodes="33", criterion="jnd", norm=2, min_angle=0,
-                 fraction=0.0, refine_by="abn", mark="element", split="centroid"):
-        settings = Settings(problem, nodes, criterion, norm, min_angle, fraction, refine_by, mark,
-                            split)
-        from . import controls
+    def __init__(self, exploration, **settings):
+        from . import widgets
         from .view import View
-        self.controls, self.view = controls.build(settings), View()
-        self.widget = controls.assembled(self.controls, self.view)
+        self.exploration = exploration
+        self.controls = widgets.build(exploration.controls, exploration.checked(settings))
+        self.view = View()
+        self.frames, film = widgets.film(exploration, self.view)
+        self.widget = widgets.assembled(self.controls, film, self.view)
         for control in self.controls.values():
             control.observe(self._follow, "value")
         self._follow()
 
     def _follow(self, _=None):
-        """Bring state and view up to date with the controls."""
-        from .controls import disable_idle
-        from .view import packed
-        disable_idle(self.controls)
-        self.state = state(Settings(**{name: c.value for name, c in self.controls.items()}))
-        self.view.state = packed(self.state)
+        """Bring scene and view up to date with the controls; an adapted mesh stays one."""
+        from .atlas import packed
+        self.scene = self.exploration.scene(**{name: c.value for name, c in self.controls.items()})
+        self.view.atlas = packed(self.exploration, [self.scene])
+        if self.exploration.film:
+            last = self.frames.value == self.frames.max
+            self.frames.max = self.scene.frames - 1
+            self.frames.value = self.frames.max if last else min(self.frames.value, self.frames.max)
+        self.view.frame = self.frames.value if self.exploration.film else self.frames.index
 
     def __repr__(self):
-        return f"Explorer({self.state})"
+        return f"Explorer({self.scene})"
 
     def _repr_mimebundle_(self, include=None, exclude=None):
         """Live where widgets are, a picture where they are not, a line of text elsewhere."""
@@ -93,6 +86,6 @@ class Explorer:
     def _picture(self):
         from .picture import png
         try:
-            return {"image/png": base64.b64encode(png(self.state)).decode()}
+            return {"image/png": base64.b64encode(png(self.scene)).decode()}
         except ImportError:  # without matplotlib there is no picture; the live view needs none
             return {}

@@ -1,76 +1,105 @@
-"""The controls of the explorer: standard ipywidgets, one for each setting."""
-from .. import criteria, norms, problems
-from ..errors import missing_extra
-from ..marking import MARKS
-from ..splitting import SPLITS
-from .engine import LARGEST_ANGLE_LIMIT, NO_SWAPS, NORM_NAMES
+"""What can be chosen in an explorer, as data, for widgets in Jupyter and on a page alike."""
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import product
 
-try:
-    import ipywidgets as widgets
-except ImportError as error:
-    raise missing_extra("ipywidgets", "widgets") from error
+from .. import checks
 
-FRACTION_STEP = 0.05
-GROUPS = {"Data": ("problem", "nodes"), "Swap edges": ("criterion", "norm", "min_angle"),
-          "Then refine": ("fraction", "refine_by", "mark", "split")}
-SHOWN = ("start mesh", "adapted mesh")
-COLUMN = "repeat(auto-fit, minmax(min(19rem, 100%), 1fr))"
+KINDS = MENU, SLIDER = "menu", "slider"
 
 
-def build(settings):
-    """A control for each setting, by name, set to the values of the settings."""
-    swapping = [c for place in ("edge", "element") for c in criteria.names(place)]
-    controls = {
-        "problem": _dropdown("function", tuple(problems.functions)),
-        "nodes": _dropdown("nodes", problems.names),
-        "criterion": _dropdown("criterion", [(NO_SWAPS, NO_SWAPS), *map(_titled, swapping)]),
-        "norm": _dropdown("norm", [(NORM_NAMES[norm], norm) for norm in norms.NORMS]),
-        "min_angle": _slider(widgets.IntSlider, "min. angle (°)", max=LARGEST_ANGLE_LIMIT),
-        "fraction": _slider(widgets.FloatSlider, "share", max=1.0, step=FRACTION_STEP,
-                            readout_format=".0%"),
-        "refine_by": _dropdown("by cost", [_titled(name) for name in criteria.names()]),
-        "mark": _dropdown("mark by", MARKS),
-        "split": _dropdown("split", tuple(SPLITS)),
-    }
-    for name, control in controls.items():
-        control.value = getattr(settings, name)
-    return controls
+@dataclass(frozen=True)
+class Control:
+    """One setting: its values, and how it is shown.
+
+    Attributes
+    ----------
+    name : str
+        Of the argument that it sets.
+    label : str
+    options : tuple
+        All values that a kernel can compute.
+    texts : tuple of str
+        What readers see of them.
+    kind : {"menu", "slider"}
+    on_page : tuple
+        The values for which states are precomputed; by default all.
+    """
+
+    name: str
+    label: str
+    options: tuple
+    texts: tuple
+    kind: str = MENU
+    on_page: tuple = ()
+
+    @property
+    def paged(self):
+        """The values on a page without a kernel."""
+        return self.on_page or self.options
+
+    def text(self, value):
+        """What readers see of a value."""
+        return self.texts[self.options.index(value)]
 
 
-def disable_idle(controls):
-    """Grey out what has no effect: limits without swaps, rules of splitting without splits."""
-    for name in ("norm", "min_angle"):
-        controls[name].disabled = controls["criterion"].value == NO_SWAPS
-    for name in ("refine_by", "mark", "split"):
-        controls[name].disabled = not controls["fraction"].value
+def menu(name, label, options, on_page=()):
+    """A menu; ``options`` maps each value to its text, or is a sequence of texts."""
+    texts = options if isinstance(options, dict) else {value: str(value) for value in options}
+    return Control(name, label, tuple(texts), tuple(texts.values()), MENU, tuple(on_page))
 
 
-def assembled(controls, view):
-    """The controls in their groups, a switch between the stages, and the view."""
-    switch = widgets.ToggleButtons(options=SHOWN, index=view.shown, style={"button_width": "8rem"})
-    # Linked in the browser, so that the switch works on pages without a kernel too.
-    widgets.jslink((switch, "index"), (view, "shown"))
-    groups = widgets.GridBox([_group(title, [controls[name] for name in names])
-                              for title, names in GROUPS.items()],
-                             layout={"grid_template_columns": COLUMN, "grid_gap": "0 1.5rem"})
-    return widgets.VBox([groups, switch, view], layout={"grid_gap": "0.5rem"})
+def slider(name, label, values, text=str, on_page=()):
+    """A slider over some values in ascending order."""
+    values = tuple(values)
+    return Control(name, label, values, tuple(map(text, values)), SLIDER, tuple(on_page))
 
 
-def _group(title, members):
-    return widgets.VBox([widgets.HTML(f"<b>{title}</b>"), *members])
+@dataclass(frozen=True)
+class Exploration:
+    """What an explorer is about: its controls, and the scene for each of their settings.
 
+    Attributes
+    ----------
+    name : str
+        Also of its file in the book.
+    controls : tuple of Control
+    scene : callable
+        Takes a keyword for each control and returns the `Scene`.
+    initial : dict
+        A value for each control.
+    film : str
+        What a frame of the film is, such as ``"sweep"``; empty if only start and adapted
+        mesh are to be told apart.
+    """
 
-def _dropdown(label, options):
-    return widgets.Dropdown(options=options, description=label, layout={"width": "auto"},
-                            style={"description_width": "6.5rem"})
+    name: str
+    controls: tuple
+    scene: Callable
+    initial: dict
+    film: str = ""
 
+    def checked(self, settings):
+        """The settings, completed by the initial ones.
 
-def _slider(kind, label, **options):
-    return kind(min=0, description=label, layout={"width": "auto"},
-                style={"description_width": "6.5rem"}, **options)
+        Raises
+        ------
+        MeshError
+            If a name or a value is not known.
+        """
+        for name in settings:
+            checks.choice(name, tuple(self.initial), "setting")
+        found = self.initial | settings
+        for control in self.controls:
+            checks.choice(found[control.name], control.options, control.label)
+        return found
 
+    def computed(self, settings):
+        """The scene for a dict with a value for each control."""
+        return self.scene(**settings)
 
-def _titled(name):
-    """Label and name of a criterion; names that abbreviate the title stand before it."""
-    title = criteria.get(name).title or name
-    return (title if "-" in name or title == name else f"{name.upper()}: {title}"), name
+    def pages(self):
+        """All settings on a page, the last control the fastest."""
+        names = [control.name for control in self.controls]
+        return [dict(zip(names, values, strict=True))
+                for values in product(*(control.paged for control in self.controls))]

@@ -1,5 +1,4 @@
-// Draws one stage of a packed state (see view.py) on canvases. Joined with view.js into one
-// module by view.py, since a widget has a single file.
+// Draws one frame of a scene into four square panels, with any pen of pens.js.
 
 // Tenths of matplotlib's tables, which readers with any kind of colour vision can follow;
 // the last colour of viridis is left out, being too bright for lines on white.
@@ -7,200 +6,224 @@ const VIRIDIS = ["#440154", "#482475", "#414487", "#355f8d", "#2a788e", "#21918c
                  "#22a884", "#44bf70", "#7ad151", "#bddf26"];
 const CIVIDIS = ["#00224e", "#083370", "#35456c", "#4f576c", "#666970", "#7d7c78",
                  "#948e77", "#aea371", "#c8b866", "#e5cf52", "#fee838"];
+const SHADES = 256;
+const LEVELS = 10;                                   // lines of constant value
 const MARGIN = 6;                                    // pixels around the domain
-const HEIGHT = 0.62;                                 // of the surface, in widths of the domain
-const LIGHT = [-0.37, -0.21, 0.9];                   // towards the lamp
-const SHADOW = 0.5;
-const DEGREE = Math.PI / 180, STEP = 5 * DEGREE;     // of turning by an arrow key
-const EYE = { azimuth: -60 * DEGREE, elevation: 32 * DEGREE };
-
-// -- the packed state ------------------------------------------------------------------
-
-function decode(stage) {
-  // A slice, since a typed array must begin at a multiple of its item's size.
-  const array = (Type, view) =>
-    new Type(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
-  const [nodes, values, error] = ["nodes", "values", "error"]
-    .map((k) => array(Float32Array, stage[k]));
-  const [elements, edges] = ["elements", "edges"].map((k) => array(Uint16Array, stage[k]));
-  const points = Array.from(values, (u, n) => [nodes[2 * n], nodes[2 * n + 1], u]);
-  const rows = (flat, width) => Array.from({ length: flat.length / width },
-    (_, i) => Array.from(flat.subarray(i * width, (i + 1) * width), (n) => points[n]));
-  return { name: stage.name, error, points, triangles: rows(elements, 3), edges: rows(edges, 2),
-           box: box(points) };
-}
-
-function box(points) {
-  const [x, y] = [0, 1].map((k) => points.map((p) => p[k]));
-  const low = [Math.min(...x), Math.min(...y)], high = [Math.max(...x), Math.max(...y)];
-  return { low, high, size: Math.max(high[0] - low[0], high[1] - low[1]) };
-}
+const HEIGHT = 0.45;                                 // of the surface, in widths of the domain
+const LIGHT = [0.15, -0.45, 0.88];                   // towards the lamp
+const SHADOW = 0.4;
+const RIM = "rgb(0, 0, 0)", TRIED = "#d55e00", SIDES = "#56b4e9";
 
 // -- colours ---------------------------------------------------------------------------
 
 const channels = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
+const [viridis, cividis] = [VIRIDIS, CIVIDIS].map((table) =>
+  Array.from({ length: SHADES }, (_, k) => mixed(table, k / (SHADES - 1))));
 
-function mixed(table, share, light = 1) {
-  const place = Math.min(Math.max(share, 0), 1) * (table.length - 1);
-  const k = Math.min(Math.floor(place), table.length - 2);
+function mixed(table, share) {
+  const place = share * (table.length - 1), k = Math.min(Math.floor(place), table.length - 2);
   const [a, b] = [channels(table[k]), channels(table[k + 1])];
-  return a.map((c, i) => Math.round(light * (c + (place - k) * (b[i] - c))));
+  return a.map((c, i) => Math.round(c + (place - k) * (b[i] - c)));
 }
 
-const css = (rgb) => `rgb(${rgb.join(" ")})`;
+const shade = (table, share) => table[Math.round(Math.min(Math.max(share, 0), 1) * (SHADES - 1))];
+const css = (rgb, light = 1) => `rgb(${rgb.map((c) => Math.round(light * c)).join(", ")})`;
 const shareOf = (value, [low, high]) => (value - low) / (high - low);
 
-// -- geometry of one element, three points [x, y, u] --------------------------------------
+// Away from the limits, where plateaux are.
+const levelsOf = ([low, high]) =>
+  Array.from({ length: LEVELS }, (_, k) => low + (high - low) * (k + 0.5) / LEVELS);
 
-function between(p, q, level) {
-  const t = (level - p[2]) / (q[2] - p[2]);
-  return [p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), level];
-}
-
-// The part where u >= level, a polygon; and the line where u = level, none or two points.
-function cut(triangle, level) {
-  const part = [], line = [];
-  triangle.forEach((p, k) => {
-    const q = triangle[(k + 1) % 3];
-    if (p[2] >= level) part.push(p);
-    if ((p[2] >= level) !== (q[2] >= level)) {
-      line.push(between(p, q, level));
-      part.push(line[line.length - 1]);
-    }
-  });
-  return { part, line };
-}
-
-// -- canvas ------------------------------------------------------------------------------
-
-function prepared(canvas) {
-  const scale = window.devicePixelRatio || 1, side = canvas.clientWidth;
-  canvas.width = canvas.height = Math.round(side * scale);
-  const pen = canvas.getContext("2d");
-  pen.setTransform(scale, 0, 0, scale, 0, 0);
-  pen.clearRect(0, 0, side, side);
-  pen.lineJoin = pen.lineCap = "round";
-  return { pen, side };
-}
+// -- paths -------------------------------------------------------------------------------
 
 function flat({ low, high, size }, side) {
   const scale = (side - 2 * MARGIN) / size;
-  const left = (side - scale * (low[0] + high[0])) / 2;
-  const bottom = (side + scale * (low[1] + high[1])) / 2;
-  return ([x, y]) => [left + scale * x, bottom - scale * y];
+  const left = (side - scale * (low[0] + high[0])) / 2, bottom = (side + scale * (low[1] + high[1])) / 2;
+  return { px: (x) => left + scale * x, py: (y) => bottom - scale * y,
+           back: (px, py) => [(px - left) / scale, (bottom - py) / scale], scale };
 }
 
-function trace(pen, points, place, closed = false) {
-  points.map(place).forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
-  if (closed) pen.closePath();
-}
-
-function stroke(pen, lines, place, colour, width) {
+function strokeEdges(pen, { mesh, place }, colour, width, edges = null) {
+  const { x, y, ends } = mesh;
   pen.beginPath();
-  lines.forEach((line) => trace(pen, line, place));
+  const line = (p, q) => {
+    pen.moveTo(place.px(x[p]), place.py(y[p]));
+    pen.lineTo(place.px(x[q]), place.py(y[q]));
+  };
+  if (edges) edges.forEach(([p, q]) => line(p, q));
+  else for (let k = 0; k < ends.length; k += 2) line(ends[k], ends[k + 1]);
   pen.strokeStyle = colour;
   pen.lineWidth = width;
   pen.stroke();
 }
 
-// One path for all elements: pieces filled one by one would leave hairlines between them.
-function fill(pen, polygons, place, colour) {
-  pen.beginPath();
-  polygons.forEach((polygon) => trace(pen, polygon, place, true));
-  pen.fillStyle = colour;
-  pen.fill();
+function pathOf(pen, elements, t, px, py) {
+  for (let k = 3 * t; k < 3 * t + 3; k++) {
+    if (k % 3) pen.lineTo(px(elements[k]), py(elements[k]));
+    else pen.moveTo(px(elements[k]), py(elements[k]));
+  }
+  pen.closePath();
 }
 
-// -- the four panels ------------------------------------------------------------------------
-
-function drawMesh(canvas, stage, { levels }) {
-  const { pen, side } = prepared(canvas), place = flat(stage.box, side);
-  fill(pen, stage.triangles, place, css(mixed(VIRIDIS, 0)));
-  levels.forEach((level, k) => {
-    const parts = stage.triangles.map((t) => cut(t, level).part).filter((part) => part.length);
-    fill(pen, parts, place, css(mixed(VIRIDIS, (k + 1) / levels.length)));
-  });
-  // White on a dark rim can be seen on every colour of the table.
-  stroke(pen, stage.edges, place, "rgb(0 0 0 / 0.45)", 2.2);
-  stroke(pen, stage.edges, place, "white", 1);
-}
-
-function drawLines(canvas, stage, { levels, limits }, ink) {
-  const { pen, side } = prepared(canvas), place = flat(stage.box, side);
-  pen.globalAlpha = 0.18;
-  stroke(pen, stage.edges, place, ink, 0.8);
-  pen.globalAlpha = 1;
-  for (const level of levels) {
-    const lines = stage.triangles.map((t) => cut(t, level).line).filter((line) => line.length);
-    const colour = css(mixed(VIRIDIS, shareOf(level, limits)));
-    // Some ink, so that either end of the table stands out from dark and from light paper.
-    stroke(pen, lines, place, `color-mix(in srgb, ${colour} 70%, ${ink})`, 1.8);
+// Calls above(points) with the part of each element where u >= level, and line(points) with
+// the line where u = level; points are x, y, x, y ... on the page.
+function cut({ mesh, place }, level, above, line) {
+  const { x, y, u, elements } = mesh;
+  for (let t = 0; t < elements.length; t += 3) {
+    const part = [], ends = [];
+    for (let k = 0; k < 3; k++) {
+      const p = elements[t + k], q = elements[t + (k + 1) % 3], [px, py] = [place.px(x[p]), place.py(y[p])];
+      if (u[p] >= level) part.push(px, py);
+      if ((u[p] >= level) === (u[q] >= level)) continue;
+      const share = (level - u[p]) / (u[q] - u[p]);
+      const at = [px + share * (place.px(x[q]) - px), py + share * (place.py(y[q]) - py)];
+      part.push(...at);
+      ends.push(...at);
+    }
+    if (part.length && above) above(part);
+    if (ends.length && line) line(ends);
   }
 }
 
-function drawError(canvas, stage, { worst }) {
-  const { pen, side } = prepared(canvas), place = flat(stage.box, side);
-  const [left, bottom] = place(stage.box.low), [right, top] = place(stage.box.high);
-  const count = Math.sqrt(stage.error.length), image = picture(stage.error, count, worst);
-  // Grid points are the middles of pixels: the outer ones reach half a pixel over the edge.
-  const [dx, dy] = [(right - left) / (count - 1), (bottom - top) / (count - 1)];
-  pen.save();
-  pen.beginPath();
-  pen.rect(left, top, right - left, bottom - top);
-  pen.clip();
-  pen.drawImage(image, left - dx / 2, top - dy / 2, count * dx, count * dy);
-  pen.restore();
-  stroke(pen, stage.edges, place, "rgb(255 255 255 / 0.3)", 0.8);
+function tracer(pen, closed) {
+  return (points) => {
+    pen.moveTo(points[0], points[1]);
+    for (let k = 2; k < points.length; k += 2) pen.lineTo(points[k], points[k + 1]);
+    if (closed) pen.closePath();
+  };
 }
 
-function picture(error, count, worst) {
-  const canvas = Object.assign(document.createElement("canvas"), { width: count, height: count });
-  const pen = canvas.getContext("2d"), image = pen.createImageData(count, count);
+// -- the four panels ------------------------------------------------------------------------
+// `shown` has the mesh, its place on the page, error, limits, worst error, ink and eye.
+
+function drawMesh(pen, shown) {
+  const { mesh, limits, place } = shown, levels = levelsOf(limits);
+  const { px, py } = placed(mesh, place);
+  pen.beginPath();
+  for (let t = 0; t < mesh.size; t++) pathOf(pen, mesh.elements, t, px, py);
+  pen.fillStyle = css(viridis[0]);
+  pen.fill();
+  levels.forEach((level, k) => {
+    pen.beginPath();                                 // one path: pieces would leave hairlines between
+    cut(shown, level, tracer(pen, true));
+    pen.fillStyle = css(shade(viridis, (k + 1) / LEVELS));
+    pen.fill();
+  });
+  // White on a dark rim can be seen on every colour of the table.
+  pen.globalAlpha = 0.45;
+  strokeEdges(pen, shown, RIM, 2.2);
+  pen.globalAlpha = 1;
+  strokeEdges(pen, shown, "white", 1);
+  if (mesh.tried) drawTried(pen, shown);
+}
+
+const placed = ({ x, y }, place) => ({ px: (n) => place.px(x[n]), py: (n) => place.py(y[n]) });
+
+// As in Figure 3.3: the edge, the other diagonal dashed, and the four sides around them.
+function drawTried(pen, shown) {
+  const { a, b, c, d, accepted } = shown.mesh.tried, old = [a, b], other = [c, d];
+  const sides = [[a, c], [c, b], [b, d], [d, a]];
+  strokeEdges(pen, shown, RIM, 5, sides);
+  strokeEdges(pen, shown, SIDES, 3, sides);
+  const [solid, dashed] = accepted ? [other, old] : [old, other];
+  strokeEdges(pen, shown, "white", 5.5, [solid]);
+  strokeEdges(pen, shown, TRIED, 3.5, [solid]);
+  pen.setLineDash([5, 5]);
+  strokeEdges(pen, shown, TRIED, 2, [dashed]);
+  pen.setLineDash([]);
+}
+
+function drawLines(pen, shown) {
+  const { limits, ink } = shown;
+  pen.globalAlpha = 0.2;
+  strokeEdges(pen, shown, ink, 0.8);
+  pen.globalAlpha = 1;
+  for (const level of levelsOf(limits)) {
+    pen.beginPath();
+    cut(shown, level, null, tracer(pen, false));
+    // Some ink, so that either end of the table stands out from dark and from light paper.
+    const colour = shade(viridis, shareOf(level, limits)), tint = inkChannels(ink);
+    pen.strokeStyle = css(colour.map((c, k) => 0.7 * c + 0.3 * tint[k]));
+    pen.lineWidth = 1.8;
+    pen.stroke();
+  }
+}
+
+const inkChannels = (ink) => ink.match(/[\d.]+/g).slice(0, 3).map(Number);
+
+function drawError(pen, shown) {
+  const { box: { low, high }, place, error, worst } = shown;
+  const [left, top] = [place.px(low[0]), place.py(high[1])];
+  // Grid points are the middles of pixels: the outer ones reach half a pixel over the edge.
+  pen.drawImage(picture(error, worst), 0.5, 0.5, GRID - 1, GRID - 1, left, top,
+                place.px(high[0]) - left, place.py(low[1]) - top);
+  pen.globalAlpha = 0.3;
+  strokeEdges(pen, shown, "white", 0.8);
+  pen.globalAlpha = 1;
+}
+
+function picture(error, worst) {
+  const canvas = Object.assign(document.createElement("canvas"), { width: GRID, height: GRID });
+  const pen = canvas.getContext("2d"), image = pen.createImageData(GRID, GRID);
   error.forEach((value, k) => {
-    const row = count - 1 - Math.floor(k / count), start = 4 * (row * count + (k % count));
-    image.data.set([...mixed(CIVIDIS, worst ? value / worst : 0), 255], start);
+    const start = 4 * ((GRID - 1 - Math.floor(k / GRID)) * GRID + (k % GRID));
+    const [red, green, blue] = shade(cividis, worst ? value / worst : 0);
+    image.data[start] = red;
+    image.data[start + 1] = green;
+    image.data[start + 2] = blue;
+    image.data[start + 3] = 255;
   });
   pen.putImageData(image, 0, 0);
   return canvas;
 }
 
-function drawSurface(canvas, stage, { limits }, ink, eye) {
-  const { pen, side } = prepared(canvas), place = solid(stage.box, limits, side, eye);
-  const { low, high } = stage.box, u = limits[0];
-  const floor = [[low, low], [high, low], [high, high], [low, high], [low, low]]
-    .map(([x, y]) => [x[0], y[1], u]);
+function drawSurface(pen, shown) {
+  const { mesh, limits, ink, box: { low, high } } = shown, { elements, u } = mesh;
+  const eye = solid(shown), at = new Map();          // each node: right, down, distance
+  for (const n of mesh.nodes) at.set(n, eye(mesh.x[n], mesh.y[n], u[n]));
   pen.globalAlpha = 0.35;
-  stroke(pen, [floor], place, ink, 1);
+  pen.beginPath();
+  tracer(pen, true)([[0, 0], [1, 0], [1, 1], [0, 1]].flatMap(([i, j]) =>
+    eye([low, high][i][0], [low, high][j][1], limits[0]).slice(0, 2)));
+  pen.strokeStyle = ink;
+  pen.lineWidth = 1;
+  pen.stroke();
   pen.globalAlpha = 1;
-  const depth = (t) => t.reduce((sum, p) => sum + place(p)[2], 0);
-  const facets = stage.triangles.map((t) => [depth(t), t]).sort((a, b) => b[0] - a[0]);
-  for (const [, triangle] of facets) {
-    const mean = triangle.reduce((sum, p) => sum + p[2], 0) / 3;
-    const light = 1 - SHADOW * (1 - lit(triangle, stage.box, limits));
-    fill(pen, [triangle], place, css(mixed(VIRIDIS, shareOf(mean, limits), light)));
-    stroke(pen, [[...triangle, triangle[0]]], place, "rgb(0 0 0 / 0.55)", 0.6);
-  }
+  const distance = (t) => [0, 1, 2].reduce((sum, k) => sum + at.get(elements[3 * t + k])[2], 0);
+  const far = Array.from({ length: mesh.size }, (_, t) => [distance(t), t]).sort((a, b) => b[0] - a[0]);
+  for (const [, t] of far) drawFacet(pen, shown, t, at);
+}
+
+function drawFacet(pen, { mesh, limits, unit }, t, at) {
+  const nodes = cornersOf(mesh, t), mean = (mesh.u[nodes[0]] + mesh.u[nodes[1]] + mesh.u[nodes[2]]) / 3;
+  pen.beginPath();
+  pathOf(pen, mesh.elements, t, (n) => at.get(n)[0], (n) => at.get(n)[1]);
+  pen.fillStyle = css(shade(viridis, shareOf(mean, limits)), 1 - SHADOW * (1 - lit(mesh, nodes, unit)));
+  pen.fill();
+  pen.strokeStyle = RIM;
+  pen.lineWidth = 0.4;
+  pen.stroke();
 }
 
 // A point in space as the eye sees it from far away: right, down, and distance.
-function solid(box, limits, side, { azimuth, elevation }) {
-  const unit = normalised(box, limits), scale = (side - 2 * MARGIN) / 1.5;
-  const [c, s] = [Math.cos(azimuth), Math.sin(azimuth)];
+function solid({ unit, side, eye: { azimuth, elevation } }) {
+  const scale = (side - 2 * MARGIN) / 1.5, [c, s] = [Math.cos(azimuth), Math.sin(azimuth)];
   const [cosine, sine] = [Math.cos(elevation), Math.sin(elevation)];
-  return (point) => {
-    const [x, y, z] = unit(point), towards = c * x + s * y;
+  return (...point) => {
+    const [x, y, z] = unit(...point), towards = c * x + s * y;
     return [side / 2 + scale * (c * y - s * x), side / 2 - scale * (cosine * z - sine * towards),
             -cosine * towards - sine * z];
   };
 }
 
+// Into a box around the origin, the same for all frames of a scene.
 function normalised({ low, high, size }, limits) {
-  return ([x, y, u]) => [(x - (low[0] + high[0]) / 2) / size, (y - (low[1] + high[1]) / 2) / size,
-                         HEIGHT * (shareOf(u, limits) - 0.5)];
+  return (x, y, u) => [(x - (low[0] + high[0]) / 2) / size, (y - (low[1] + high[1]) / 2) / size,
+                       HEIGHT * (shareOf(u, limits) - 0.5)];
 }
 
-function lit(triangle, box, limits) {
-  const [a, b, c] = triangle.map(normalised(box, limits));
+function lit({ x, y, u }, nodes, unit) {
+  const [a, b, c] = Array.from(nodes, (n) => unit(x[n], y[n], u[n]));
   const [e, f] = [b, c].map((p) => p.map((v, k) => v - a[k]));
   const normal = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
   const dot = normal.reduce((sum, v, k) => sum + v * LIGHT[k], 0);

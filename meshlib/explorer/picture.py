@@ -1,4 +1,4 @@
-"""The state of the explorer as a picture, for pages without JavaScript."""
+"""The scene of the explorer as a picture, for pages without JavaScript."""
 import re
 from io import BytesIO
 
@@ -17,12 +17,12 @@ NARROW = re.compile(r",? (?!\()")  # a new line for each word, but not for a uni
 STAGES = "start", "adapted"
 
 
-def png(state):
+def png(scene):
     """The picture of `figure` as a PNG file.
 
     Parameters
     ----------
-    state : meshlib.explorer.engine.State
+    scene : Scene
 
     Returns
     -------
@@ -30,33 +30,33 @@ def png(state):
     """
     file = BytesIO()
     with style():
-        drawn = figure(state)
+        drawn = figure(scene)
         drawn.savefig(file, format="png", dpi=DPI)
         pyplot().close(drawn)
     return file.getvalue()
 
 
-def figure(state):
+def figure(scene):
     """Adapted mesh over its interpolant, lines of constant value, error, and the quality table.
 
     Parameters
     ----------
-    state : meshlib.explorer.engine.State
+    scene : Scene
 
     Returns
     -------
     matplotlib.figure.Figure
     """
-    limits = value_limits(state.start.interpolant, state.adapted.interpolant)
+    limits = value_limits(scene.before.interpolant, scene.after.interpolant)
     drawn = pyplot().figure(figsize=SHAPE, layout="constrained")
     axes = drawn.subplot_mosaic([["mesh", "lines", "error"], ["counts"] * 3, ["shapes"] * 3],
                                  height_ratios=(3.2, 1, 1))
-    drawn.suptitle(str(state.settings), fontsize="medium")
-    _draw_mesh(axes["mesh"], state.adapted.interpolant, limits)
-    plot_contours(axes["lines"], state.adapted.interpolant, limits=limits, ticks=True)
-    _draw_error(axes["error"], state)
-    _draw_table(axes["counts"], state.rows[:COLUMNS])
-    _draw_table(axes["shapes"], state.rows[COLUMNS:])
+    drawn.suptitle(scene.title, fontsize="medium")
+    _draw_mesh(axes["mesh"], scene.after.interpolant, limits)
+    plot_contours(axes["lines"], scene.after.interpolant, limits=limits, ticks=True)
+    _draw_error(axes["error"], scene)
+    _draw_table(axes["counts"], scene.rows[:COLUMNS])
+    _draw_table(axes["shapes"], scene.rows[COLUMNS:])
     for name, title in (("mesh", "mesh over the interpolant"), ("lines", "lines of constant value"),
                         ("error", "error |u − u$_h$|")):
         axes[name].set_title(title)
@@ -74,11 +74,12 @@ def _draw_mesh(ax, u_h, limits):
     plot_mesh(ax, u_h.mesh, colour="white", ticks=True)
 
 
-def _draw_error(ax, state):
-    mesh, error = state.adapted.mesh, np.abs(state.adapted.error)
+def _draw_error(ax, scene):
+    mesh, error = scene.after.mesh, scene.after.error
+    worst = max(stage.largest_error for stage in (scene.before, scene.after))
     framed(ax, mesh)
     x, y = np.linspace(*mesh.box, len(error)).T
-    image = ax.pcolormesh(x, y, error, cmap=ERRORS, vmin=0, vmax=state.worst, shading="gouraud")
+    image = ax.pcolormesh(x, y, error, cmap=ERRORS, vmin=0, vmax=worst, shading="gouraud")
     ax.figure.colorbar(image, ax=ax, fraction=0.046, pad=0.04)
 
 

@@ -1,10 +1,12 @@
-// The page: panels, colour bars and table, and what happens when state, size or theme change.
+// The view: panels, colour bars and table, and what happens when scene, size or theme change.
 
+const STEP = 5 * DEGREE;                             // of turning by an arrow key
+const EYE = { azimuth: -60 * DEGREE, elevation: 32 * DEGREE };
 const PANELS = [
-  { caption: "mesh over the interpolant", draw: drawMesh, table: VIRIDIS, ends: (s) => s.limits },
-  { caption: "lines of constant value", draw: drawLines, table: VIRIDIS, ends: (s) => s.limits },
-  { caption: "error |u − u\u2095|", draw: drawError, table: CIVIDIS, ends: (s) => [0, s.worst] },
-  { caption: "surface, turned by dragging or arrow keys", draw: drawSurface, table: VIRIDIS,
+  { name: "mesh", caption: "mesh over the interpolant", draw: drawMesh, table: VIRIDIS, ends: (s) => s.limits },
+  { name: "lines", caption: "lines of constant value", draw: drawLines, table: VIRIDIS, ends: (s) => s.limits },
+  { name: "error", caption: "error |u − u\u2095|", draw: drawError, table: CIVIDIS, ends: (s) => [0, s.worst] },
+  { name: "surface", caption: "surface, turned by dragging or arrow keys", draw: drawSurface, table: VIRIDIS,
     ends: (s) => s.limits, turns: true },
 ];
 
@@ -14,24 +16,23 @@ function element(tag, properties = {}, ...children) {
   return made;
 }
 
-function panel({ caption, table, turns }) {
+function panel({ name, caption, table, turns }) {
   const canvas = element("canvas", { className: turns ? "turns" : "", tabIndex: turns ? 0 : -1 });
   canvas.setAttribute("role", "img");
   const bar = element("span", { className: "bar" });
   bar.style.background = `linear-gradient(to right, ${table.join(", ")})`;
   const scale = element("div", { className: "scale" }, element("span"), bar, element("span"));
   const below = element("figcaption", { textContent: caption });
-  const figure = element("figure", {}, canvas, scale, below);
+  const figure = element("figure", { className: name }, canvas, scale, below);
   return { figure, canvas, ends: [scale.firstChild, scale.lastChild] };
 }
 
-function fillTable(table, rows, shown) {
-  const cells = (texts) => texts.map((text, k) =>
-    element("td", { textContent: text, className: k === shown ? "shown" : "" }));
-  const heads = ["measure", "start", "adapted"].map((text, k) =>
-    element("th", { textContent: text, scope: "col", className: k === shown + 1 ? "shown" : "" }));
+// Rows of label and number at the start and in the frame shown, whose heading is given.
+function fillTable(table, rows, heading) {
+  const heads = ["measure", "start", heading].map((text) => element("th", { textContent: text, scope: "col" }));
   const body = rows.map(([label, ...texts]) =>
-    element("tr", {}, element("th", { textContent: label, scope: "row" }), ...cells(texts)));
+    element("tr", {}, element("th", { textContent: label, scope: "row" }),
+            ...texts.map((textContent) => element("td", { textContent }))));
   table.replaceChildren(element("caption", { textContent: "Quality" }),
     element("thead", {}, element("tr", {}, ...heads)), element("tbody", {}, ...body));
 }
@@ -46,8 +47,7 @@ function makeTurnable(canvas, eye, redraw) {
   canvas.addEventListener("pointermove", (event) => {
     if (event.buttons) turn(event.movementX * DEGREE, event.movementY * DEGREE);
   });
-  const keys = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0],
-                 ArrowUp: [0, -STEP], ArrowDown: [0, STEP] };
+  const keys = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] };
   canvas.addEventListener("keydown", (event) => {
     if (!(event.key in keys)) return;
     event.preventDefault();
@@ -57,8 +57,7 @@ function makeTurnable(canvas, eye, redraw) {
 
 function watchTheme(redraw) {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  const attributeFilter = ["data-theme", "data-jp-theme-name"];
-  const observer = new MutationObserver(redraw);
+  const attributeFilter = ["data-theme", "data-jp-theme-name"], observer = new MutationObserver(redraw);
   for (const root of [document.documentElement, document.body]) {
     observer.observe(root, { attributes: true, attributeFilter });
   }
@@ -68,56 +67,80 @@ function watchTheme(redraw) {
 
 // Three digits of the larger end; the smaller one may be 1e-9 and mean 0.
 function short(value, [low, high]) {
-  const digits = 2 - Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high))));
-  return String(Number(value.toFixed(Math.min(Math.max(digits, 0), 9))) + 0);
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  if (size < 1e-3) return value ? value.toExponential(1) : "0";
+  const digits = 2 - Math.floor(Math.log10(size));
+  return String(Number(value.toFixed(Math.max(digits, 0))) + 0);
 }
 
-function build() {
+function layout() {
   const panels = PANELS.map(panel), table = element("table");
-  const title = element("p", { className: "title" });
-  title.setAttribute("role", "status");  // read aloud
+  const title = element("p", { className: "title" }), note = element("p", { className: "note" });
+  title.setAttribute("role", "status");              // read aloud
   const grid = element("div", { className: "panels" }, ...panels.map((p) => p.figure), table);
-  const root = element("div", { className: "mesh-explorer" }, title, grid);
-  return { root, title, panels, table };
+  return { root: element("div", { className: "mesh-explorer" }, title, note, grid), title, note, panels, table };
 }
 
-function describe({ panels, table, title }, state, stage, shown) {
-  title.textContent = state.title;
-  fillTable(table, state.rows, shown);
-  panels.forEach(({ canvas, ends }, k) => {
-    PANELS[k].ends(state).forEach((value, n, both) => (ends[n].textContent = short(value, both)));
-    canvas.setAttribute("aria-label", `${PANELS[k].caption}, ${stage.name} mesh of `
-      + `${stage.points.length} nodes and ${stage.triangles.length} elements`);
-  });
+// What was tried in this frame, with the local cost before and after.
+function triedText(mesh, scene, frame) {
+  const { accepted } = mesh.tried, [old, other] = accepted ? ["dashed", "solid"] : ["solid", "dashed"];
+  const costs = triedCosts(mesh, scene).map((cost) => cost.toPrecision(4));
+  const where = scene.on === "edge" ? "five edges" : "two elements";
+  return `Try ${frame}: the ${old} edge against the ${other} one. Cost of the ${where}: ${costs[0]} before, `
+    + `${costs[1]} after. ${accepted ? "Swapped." : "Kept."}`;
 }
 
-function render({ model, el }) {
-  const page = build(), eye = { ...EYE };
-  let state, stages, shown;  // what the model holds, decoded
-
+// A view of one scene at a time; `show` draws a frame, `stop` ends it.
+function makeView() {
+  const page = layout(), eye = { ...EYE };
+  let shown;                                         // all that the panels draw
   const draw = (k) => {
-    const { canvas } = page.panels[k], ink = getComputedStyle(page.root).color;
-    if (state && canvas.clientWidth) PANELS[k].draw(canvas, stages[shown], state, ink, eye);
+    const { canvas } = page.panels[k], side = canvas.clientWidth;
+    if (!shown || !side) return;
+    const ink = getComputedStyle(page.root).color, place = flat(shown.box, side);
+    PANELS[k].draw(canvasPen(canvas), { ...shown, ink, place, eye, side });
   };
   const drawAll = () => PANELS.forEach((_, k) => draw(k));
-  const load = () => {
-    shown = model.get("shown");
-    if (!model.get("state").stages) return;
-    state = model.get("state");
-    stages = state.stages.map(decode);
-    describe(page, state, stages[shown], shown);
+  const show = (scene, frame) => {
+    shown = prepared(scene, frame, shown);
+    describe(page, shown);
     drawAll();
   };
-
-  page.panels.forEach(({ canvas }, k) => {
-    if (PANELS[k].turns) makeTurnable(canvas, eye, () => draw(k));
-  });
+  page.panels.forEach(({ canvas }, k) => PANELS[k].turns && makeTurnable(canvas, eye, () => draw(k)));
   const sizes = new ResizeObserver(drawAll), forgetTheme = watchTheme(drawAll);
-  sizes.observe(page.root);
-  el.append(page.root);
-  model.on("change:state change:shown", load);
-  load();
-  return () => (sizes.disconnect(), forgetTheme(), model.off("change:state change:shown", load));
+  page.panels.forEach(({ canvas }) => sizes.observe(canvas));
+  page.root.shown = () => shown;                     // for other scripts, and tests
+  return { root: page.root, show, stop: () => (sizes.disconnect(), forgetTheme()) };
 }
 
-export default { render };
+function prepared(scene, frame, before) {
+  const known = before && before.scene === scene ? before.common : commonOf(scene);
+  const mesh = meshOf(scene, frameAt(scene, frame)), error = errorOf(mesh, scene.truth, known.box);
+  return { ...known, common: known, scene, frame, mesh, error, numbers: numbersOf(mesh, error, known.box) };
+}
+
+// What all frames of a scene share, so that colours mean the same in each.
+function commonOf(scene) {
+  const start = meshOf(scene, frameAt(scene, 0)), last = meshOf(scene, frameAt(scene, scene.frames - 1));
+  const box = boxOf(start), errors = [start, last].map((mesh) => errorOf(mesh, scene.truth, box));
+  const worst = Math.max(...errors.map((error) => error.reduce((m, e) => Math.max(m, e), 0)));
+  let limits = scene.truth.reduce(([low, high], u) => [Math.min(low, u), Math.max(high, u)], [Infinity, -Infinity]);
+  if (limits[0] === limits[1]) limits = [limits[0] - 0.5, limits[1] + 0.5];
+  return { box, worst, limits, unit: normalised(box, limits), atStart: numbersOf(start, errors[0], box) };
+}
+
+function describe({ panels, table, title, note }, shown) {
+  const { scene, frame, mesh, numbers, atStart } = shown, film = scene.atlas.header.film;
+  const name = !frame ? "start" : film ? `${film} ${frame}` : "adapted";
+  title.textContent = scene.title;
+  note.hidden = !film;
+  note.classList.toggle("long", scene.traced);
+  note.textContent = !frame ? "The start mesh." : mesh.tried ? triedText(mesh, scene, frame)
+    : `After ${film} ${frame}.`;
+  fillTable(table, numbers.map(([label, , text], k) => [label, atStart[k][2], text]), name);
+  panels.forEach(({ canvas, ends }, k) => {
+    PANELS[k].ends(shown).forEach((value, n, both) => (ends[n].textContent = short(value, both)));
+    canvas.setAttribute("aria-label",
+      `${PANELS[k].caption}, ${name}: ${mesh.nodes.length} nodes and ${mesh.size} elements`);
+  });
+}

@@ -1,0 +1,59 @@
+"""Put the explorers into the site: their scripts, and the states computed beforehand.
+
+A cell with the tag ``explorer-NAME`` shows the picture of its explorer; where a browser
+runs scripts, the explorer of that name takes its place.
+"""
+import base64
+import gzip
+from pathlib import Path
+
+import joblib
+from sphinx.util import logging
+
+from meshlib.explorer import atlas, scripts
+from meshlib.thesis.explorers import ALL
+
+TAG = "tag_explorer-"
+SCRIPT, STYLES, FOLDER = "explorers.js", "explorers.css", "explorers"
+SLOW = "approximation",  # seconds for each state, so that all cores share them
+logger = logging.getLogger(__name__)
+
+
+def write(folder, names=tuple(ALL)):
+    """Write scripts, styles and states of some explorers into the folder of static files."""
+    folder = Path(folder)
+    (folder / FOLDER).mkdir(parents=True, exist_ok=True)
+    (folder / SCRIPT).write_text(scripts.classic(), encoding="utf-8")
+    (folder / STYLES).write_text(scripts.styles(), encoding="utf-8")
+    for name in names:
+        logger.info("computing the states of the explorer %r", name)
+        pages = atlas.pages(ALL[name], parallel if name in SLOW else map)
+        # mtime: the same states make the same file
+        packed = base64.b64encode(gzip.compress(pages, mtime=0)).decode()
+        # A script and not data, since pages opened from a file may load nothing else.
+        (folder / FOLDER / f"{name}.js").write_text(f'meshExplorers.open("{name}", "{packed}");\n')
+
+
+def parallel(function, items):
+    """As `map`, on all cores."""
+    return joblib.Parallel(n_jobs=-1, return_as="generator")(map(joblib.delayed(function), items))
+
+
+def write_all(app):
+    """Write all of it before the pages are made."""
+    if app.builder.format == "html":
+        write(Path(app.outdir) / "_static")
+
+
+def load(app, page, template, context, doctree):
+    """Have a page load the scripts if there is an explorer on it."""
+    if TAG in context.get("body", ""):
+        app.add_js_file(SCRIPT, loading_method="defer")
+        app.add_css_file(STYLES)
+
+
+def setup(app):
+    """Register both steps with Sphinx."""
+    app.connect("builder-inited", write_all)
+    app.connect("html-page-context", load)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,149 @@
+"""What an explorer shows: a start mesh and what becomes of it, without widgets or pictures."""
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..interpolant import Interpolant
+from ..mesh import Mesh
+from ..quality import MEASURES, Quality, quality
+
+GRID = 101  # points along each side, for errors as the thesis measures them
+UNITS = {"maximum_angle": " (°)"}
+NO_TRACE = ()
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A start mesh and the meshes that a procedure makes of it.
+
+    Attributes
+    ----------
+    title : str
+    function : callable
+        The vectorised u(x, y) that is interpolated.
+    start : Mesh
+    film : tuple of Mesh
+        The meshes after the start, at least one; the last is the adapted mesh.
+    trace : structured array
+        Tried swaps as in `meshlib.swapping.Swapping.trace`, which lead from the start to
+        the only mesh of the film; then each try is a frame.
+    swaps : int
+    cost : str
+        Criterion whose costs are of interest.
+    norm : {1, 2, "max", "lexicographic"}
+        By which tried swaps were compared.
+    """
+
+    title: str
+    function: Callable
+    start: Mesh
+    film: tuple
+    trace: np.ndarray = NO_TRACE
+    swaps: int = 0
+    cost: str = "jnd"
+    norm: int | str = 2
+
+    @property
+    def frames(self):
+        """Number of frames; frame 0 is the start mesh."""
+        return 1 + (len(self.trace) or len(self.film))
+
+    @cached_property
+    def before(self):
+        """The start mesh as a `Stage`."""
+        return Stage(self.function, self.start)
+
+    @cached_property
+    def after(self):
+        """The adapted mesh as a `Stage`."""
+        return Stage(self.function, self.film[-1], self.swaps)
+
+    @property
+    def rows(self):
+        """The quality table: rows of a label and the numbers before and after, as text."""
+        before, after = (column(stage) for stage in (self.before, self.after))
+        return [(label, before[label], after[label]) for label in after]
+
+    def __str__(self):
+        edges = self.film[-1].n_edges
+        return (f"{self.title}: {edges} edges, {self.swaps} swap{'s' * (self.swaps != 1)}, "
+                f"L2 error {significant(self.after.l2_error)}")
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A mesh, what it represents, and how well.
+
+    Attributes
+    ----------
+    function : callable
+    mesh : Mesh
+    swaps : int
+        Swaps made since the start mesh.
+    """
+
+    function: Callable
+    mesh: Mesh
+    swaps: int = 0
+
+    @cached_property
+    def interpolant(self):
+        """The piecewise linear interpolant of the function."""
+        return Interpolant(self.mesh, self.function)
+
+    @cached_property
+    def error(self):
+        """(101, 101) float64: |u - u_h| on a regular grid over the domain."""
+        return np.abs(self.interpolant.error_on_grid(self.function, GRID)[2])
+
+    @cached_property
+    def l2_error(self):
+        """By the trapezium rule on that grid."""
+        x, y = np.linspace(*self.mesh.box, GRID).T
+        # As Interpolant.l2_error, which would search the grid points a second time.
+        return float(np.sqrt(np.trapezoid(np.trapezoid(self.error ** 2, x, axis=1), y)))
+
+    @property
+    def largest_error(self):
+        """Largest absolute error on the grid."""
+        return float(self.error.max())
+
+    @cached_property
+    def quality(self) -> Quality:
+        """Shapes of the elements."""
+        return quality(self.mesh)
+
+
+def numbers(stage):
+    """The numbers of the quality table, by label."""
+    found = dict(zip(("Nodes", "Edges", "Elements", "Swaps"), (*stage.mesh.counts, stage.swaps),
+                     strict=True))
+    found |= {"L2 error": stage.l2_error, "Largest error": stage.largest_error}
+    for name, title in MEASURES.items():
+        for kind, values in (("mean", stage.quality.mean), ("max", stage.quality.max)):
+            found[f"{title}{UNITS.get(name, '')}, {kind}"] = values[name]
+    return found
+
+
+def column(stage):
+    """One column of the quality table: texts by label."""
+    return {label: _text(label, number) for label, number in numbers(stage).items()}
+
+
+def _text(label, number):
+    if label.endswith("error"):
+        return significant(number)
+    return str(number) if isinstance(number, int) else f"{number:.{1 if '(°)' in label else 3}f}"
+
+
+def significant(error):
+    """An error with four decimals, or three digits where these would say less."""
+    return f"{error:.4f}" if error >= 0.01 or error == 0 else f"{error:.2e}"
+
+
+def truth(function, mesh):
+    """(101, 101) float64: the function on the grid of the errors, a row for each y."""
+    x, y = np.linspace(*mesh.box, GRID).T
+    return np.broadcast_to(function(x[None, :], y[:, None]), (GRID, GRID))

@@ -1,0 +1,126 @@
+"""Every control of every explorer, by keyboard and by mouse, against what Python computes."""
+import numpy as np
+import pytest
+
+from meshlib import Mesh
+from meshlib.explorer.scene import Stage, numbers
+from meshlib.thesis import explorers
+from visiting import explorers_of
+
+PLACES = {"swaps": "03-methods", "refinement": "05-results", "movement": "05-results",
+          "limits": "06-modifications", "orders": "06-modifications", "approximation": "07-further-work"}
+SHOWN = """e => { const shown = e.querySelector('.mesh-explorer').shown(), { mesh } = shown;
+    return { numbers: shown.numbers.map(([label, value]) => [label, value]), frame: shown.frame,
+             title: e.querySelector('.title').textContent,
+             corners: Array.from(mesh.elements, n => [mesh.x[n], mesh.y[n]]),
+             rows: Array.from(e.querySelectorAll('tbody tr'), r => [r.cells[0].textContent, r.cells[2].textContent]),
+             pictures: Array.from(e.querySelectorAll('canvas'), c => c.toDataURL()) }; }"""
+
+
+@pytest.fixture(scope="module")
+def pages(chromium, site):
+    """Opens the page of an explorer, each page once."""
+    opened = {}
+
+    def explorer(name):
+        if PLACES[name] not in opened:
+            page = opened[PLACES[name]] = chromium.new_page(reduced_motion="reduce")
+            page.goto(f"{site.as_uri()}/notebooks/{PLACES[name]}.html")
+            explorers_of(page)
+        return opened[PLACES[name]].locator(f".tag_explorer-{name}")
+    yield explorer
+    for page in opened.values():
+        page.close()
+
+
+def shown(explorer):
+    return explorer.evaluate(SHOWN)
+
+
+def settings_of(explorer, exploration):
+    """The settings that the controls of a page show."""
+    found = {}
+    for control in exploration.controls:
+        value = explorer.locator(f"#{exploration.name}-{control.name}").input_value()
+        found[control.name] = control.paged[int(value)]
+    return found
+
+
+def stage_of(scene, frame):
+    """The stage that a frame shows, by library objects."""
+    if not frame:
+        return scene.before
+    if not len(scene.trace):
+        return Stage(scene.function, scene.film[frame - 1], scene.swaps)
+    accepted = scene.trace[:frame][scene.trace["accepted"][:frame]]
+    return Stage(scene.function, replayed(scene.start, accepted), len(accepted))
+
+
+def replayed(mesh, accepted):
+    """The mesh after these swaps, made one by one."""
+    rows = mesh.elements.tolist()
+    for a, b, c, d in accepted[["a", "b", "c", "d"]].tolist():
+        rows = [row for row in rows if not {a, b} <= set(row)] + [[c, d, a], [d, c, b]]
+    rows = np.array(rows)
+    rows[Mesh(mesh.nodes, rows).areas < 0] = rows[Mesh(mesh.nodes, rows).areas < 0][:, ::-1]
+    return Mesh(mesh.nodes, rows)
+
+
+def assert_agrees(explorer, exploration):
+    """Numbers, their texts and the mesh on the page are those of the library."""
+    found = shown(explorer)
+    stage = stage_of(exploration.computed(settings_of(explorer, exploration)), found["frame"])
+    expected = numbers(stage)
+    assert [label for label, _ in found["numbers"]] == list(expected)
+    for (label, value), (_, text) in zip(found["numbers"], found["rows"], strict=True):
+        assert value == pytest.approx(expected[label], rel=1e-5, abs=1e-9), label
+        assert float(text) == pytest.approx(value, rel=0.006, abs=0.0006), label
+    corners = np.array(found["corners"]).reshape(-1, 3, 2)
+    assert elements(corners) == elements(stage.mesh.corners)
+    return found
+
+
+def elements(corners):
+    return sorted(sorted(map(tuple, element)) for element in corners.round(9).tolist())
+
+
+def moved_by(way, explorer, control):
+    """Move a control one option on, or back from its end."""
+    target = explorer.locator(f"#{control}")
+    before, tag = target.input_value(), target.evaluate("e => e.tagName")
+    if tag == "SELECT":
+        last = target.locator("option").count() - 1
+        if way == "mouse":
+            target.select_option(index=(int(before) + 1) % (last + 1))
+        else:
+            target.press("ArrowUp" if int(before) == last else "ArrowDown")
+    elif way == "mouse":
+        box, last = target.bounding_box(), int(target.get_attribute("max"))
+        share = 0.4 if int(before) > last / 2 or last == 1 and before == "1" else 0.75
+        target.click(position={"x": share * box["width"], "y": box["height"] / 2})
+    else:
+        target.press("ArrowLeft" if before == target.get_attribute("max") else "ArrowRight")
+    assert target.input_value() != before
+    return target
+
+
+@pytest.mark.parametrize("way", ["keyboard", "mouse"])
+@pytest.mark.parametrize("name", explorers.ALL)
+def test_each_control_leads_to_the_state_that_python_computes(pages, name, way):
+    exploration, explorer = explorers.ALL[name], pages(name)
+    assert_agrees(explorer, exploration)
+    for control in exploration.controls:
+        if len(control.paged) == 1:
+            continue
+        before = shown(explorer)
+        moved_by(way, explorer, f"{name}-{control.name}")
+        after = assert_agrees(explorer, exploration)
+        assert after["title"] != before["title"], control.name
+        if after["corners"] != before["corners"]:
+            assert after["pictures"] != before["pictures"], control.name
+    before = shown(explorer)
+    moved_by(way, explorer, f"{name}-frame")
+    after = assert_agrees(explorer, exploration)
+    assert after["frame"] != before["frame"]
+    if after["corners"] != before["corners"]:
+        assert after["pictures"] != before["pictures"]
