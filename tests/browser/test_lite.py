@@ -24,6 +24,7 @@ RUN = """async seconds => {
     const late = new Promise((_, fail) => setTimeout(() => fail(new Error('too slow')), 1000 * seconds));
     await Promise.race([commands.execute('notebook:run-all-cells'), late]);
     return JSON.stringify(notebook.content.model.toJSON()); }"""
+OTHER_TEXT = "([element, text]) => element.textContent !== text"
 MYST = re.compile(r"\{[a-z:]+\}`|`{3}\{|^\([\w-]+\)=", re.MULTILINE)
 ONCE_ON_STDERR = "Matplotlib is building the font cache"
 
@@ -105,4 +106,4 @@ def assert_a_menu_leads_to_another_picture(page):
     title, menu = explorer.locator(".title"), explorer.locator("select").first
     before = title.text_content()
     menu.select_option(index=1)
-    expect(title).not_to_have_text(before)
+    page.wait_for_function(OTHER_TEXT, arg=[title.element_handle(), before])
