@@ -91,7 +91,7 @@ def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0
         MOST_NODES. Meshes are made with several numbers of nodes, so that this takes a few
         times as long.
     norm : {"L2", "max"}
-        Whether the mean square or the largest of |u - u_h| is to be small. The largest is
+        Whether the mean square of the error or the largest is to be small. The latter is
         found by lowering the integral of the eighth power, after the square.
 
     Returns
