@@ -58,3 +58,36 @@ def test_pyodide_is_the_release_whose_hashes_are_on_record_and_no_index_is_asked
     plugins = lite.settings(lite.PYODIDE_URL)["jupyter-config-data"]["litePluginSettings"]
     assert plugins[f"{lite.KERNEL}:kernel"] == {"pyodideUrl": lite.PYODIDE_URL, "disablePyPIFallback": True}
     assert (ROOT / "tests" / "browser" / f"pyodide-{lite.PYODIDE_VERSION}.sha256").exists()
+
+
+@pytest.mark.parametrize("source, plain", [
+    ("(sec-1)=\n## Title\n\nSee {numref}`x`.", "## Title\n\nSee Words 1."),
+    ("In {doc}`x`, {eq}`elsewhere`.", "In Words 1, [Words 1](04-other.ipynb)."),
+    ("$$\na = b\n$$ (eq-1)", "$$\na = b\n\\tag{Words 1} $$"),
+    ("Term\n: What it means.", "**Term.** What it means."),
+    ("```{prf:theorem} Name\n:label: x\n\nBy {ref}`x`.\n```",
+     "---\n\n**Words 1 (Name).**\n\nBy Words 1.\n\n---"),
+    ("```{prf:proof}\nClear.\n```", "---\n\n**Proof.**\n\nClear.\n\n---"),
+    ("```{admonition} Two\n:class: note\n\nText.\n```\n\n```{rubric} Next\n```",
+     "---\n\n**Two.**\n\nText.\n\n---\n\n**Next**"),
+])
+def test_myst_becomes_plain_markdown(source, plain):
+    references = pytest.importorskip("references", exc_type=ImportError)
+
+    class Known(references.Plain):
+        def _resolved(self, role, target):
+            return "Words 1", "04-other.html" if target == "elsewhere" else ""
+    assert Known(None, "notebooks/03-this").text(source) == plain
+
+
+def test_a_caption_stands_below_its_figure():
+    references = pytest.importorskip("references", exc_type=ImportError)
+    nbformat = pytest.importorskip("nbformat")
+
+    class Known(references.Plain):
+        def _resolved(self, role, target):
+            return f"{role} {target}", ""
+    figure = {"mystnb": {"figure": {"name": "fig-1", "caption": "What is seen."}}}
+    cells = [nbformat.v4.new_code_cell("draw()", metadata=figure), nbformat.v4.new_markdown_cell("Then.")]
+    found = Known(None, "x").notebook(nbformat.v4.new_notebook(cells=cells)).cells
+    assert [cell.source for cell in found] == ["draw()", "*numref fig-1.* What is seen.", "Then."]

@@ -7,6 +7,7 @@ network when a reader starts a kernel, or from the site if the environment varia
 """
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +15,7 @@ from shutil import copytree, rmtree
 from tempfile import TemporaryDirectory
 
 import nbformat
+from references import Plain
 from wheels import all_wheels
 
 PYODIDE_VERSION = "0.27.7"
@@ -25,6 +27,8 @@ KERNELSPEC = {"name": "python", "display_name": "Python (Pyodide)", "language": 
 APPS = ["notebooks", "tree", "lab", "edit"]
 INSTALL = "%pip install -q 'data-dependent-mesh[fem,plot,widgets]'"
 NOTE = "JupyterLite: the library and what it needs, once in each session."
+CONTENTS = "files"
+NOTEBOOKS = re.compile("notebooks/")
 # What the page on performance reads.
 DATA = ["benchmarks/*.py", "benchmarks/*.json"]
 
@@ -33,22 +37,29 @@ def build_lite(app, exception):
     """Build the folder ``lite`` of a finished HTML site."""
     if exception or app.builder.format != "html":
         return
-    root, target = Path(app.srcdir), Path(app.outdir, "lite")
+    target = Path(app.outdir, "lite")
     rmtree(target, ignore_errors=True)
     with TemporaryDirectory() as folder:
-        _prepare(root, Path(folder))
-        _run_jupyterlite(Path(folder), target)
+        _write_contents(app, Path(folder, CONTENTS))
+        _write_rest(app.srcdir, Path(folder))
+        _run_jupyterlite(folder, target)
 
 
-def _prepare(root, folder):
-    """What JupyterLite is made from: notebooks with their data, wheels, Pyodide, settings."""
+def _write_contents(app, folder):
+    """The notebooks of the pages, and what one of them reads."""
+    for page in filter(NOTEBOOKS.match, sorted(app.env.found_docs)):
+        notebook = nbformat.read(app.srcdir / f"{page}.ipynb", as_version=4)
+        # Not by nbformat, which writes text as lists of lines: JupyterLite shows no output of lists.
+        _write(folder / f"{page}.ipynb", json.dumps(installing(Plain(app, page).notebook(notebook))))
+    for path in (path for pattern in DATA for path in app.srcdir.glob(pattern)):
+        _write(folder / path.relative_to(app.srcdir), path.read_text())
+
+
+def _write_rest(root, folder):
+    """Wheels, Pyodide if it shall be in the site, and settings."""
     wheels = folder / "pypi"
     wheels.mkdir()
     all_wheels(root, wheels)
-    for path in sorted(root.glob("notebooks/*.ipynb")):
-        _write(folder / "files/notebooks" / path.name, nbformat.writes(installing(nbformat.read(path, 4))))
-    for path in (path for pattern in DATA for path in root.glob(pattern)):
-        _write(folder / "files" / path.relative_to(root), path.read_text())
     if own := os.environ.get("MESHLIB_PYODIDE"):
         copytree(own, folder / "static/pyodide")
     _write(folder / "jupyter-lite.json", json.dumps(settings(OWN_PYODIDE if own else PYODIDE_URL)))
@@ -80,7 +91,7 @@ def build_options():
     """Nothing but the named extensions goes in, whatever else the environment has."""
     installed = Path(sys.prefix, "share/jupyter/labextensions")
     return {"LiteBuildConfig": {
-        "apps": APPS, "contents": ["files"], "no_libarchive": True, "no_sourcemaps": True,
+        "apps": APPS, "contents": [CONTENTS], "no_libarchive": True, "no_sourcemaps": True,
         "no_unused_shared_packages": True, "ignore_sys_prefix": ["federated_extensions"],
         "federated_extensions": [str(installed / name) for name in EXTENSIONS]}}
 

@@ -12,7 +12,8 @@ from shutil import copy2, copytree, ignore_patterns
 from tempfile import TemporaryDirectory
 
 LIBRARY = ["meshlib", "pyproject.toml", "README.md", "LICENSE"]
-CARRIED = ["anywidget", "comm", "ipywidgets", "jupyterlab-widgets", "psygnal", "scikit-fem", "typing-extensions"]
+CARRIED = ["anywidget", "comm", "ipywidgets", "jupyterlab-widgets", "psygnal", "scikit-fem",
+           "typing-extensions"]
 PURE = "Wheel-Version: 1.0\nGenerator: meshlib\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
 # Compiled twins of pure modules, and what belongs to this installation alone.
 LEFT_OUT = (".so", ".pyd", ".pyc", "INSTALLER", "REQUESTED", "RECORD", "direct_url.json")

@@ -2,19 +2,16 @@
 
 Two chapters by default, all of them with MESHLIB_LITE=all, which takes half an hour.
 """
-import functools
 import os
-import shutil
-import threading
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+import re
 from pathlib import Path
 
 import nbformat
 import pytest
 from pyodide_files import RELEASE, Unavailable, folder
+from visiting import served
 
-ROOT = Path(__file__).parents[2]
-SITE, NOTEBOOKS = ROOT / "_build" / "html", ROOT / "notebooks"
+NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
 EVERY = sorted(path.stem for path in NOTEBOOKS.glob("*.ipynb"))
 CHAPTERS = EVERY if os.environ.get("MESHLIB_LITE") == "all" else ["03-methods", "08-conclusions"]
 NETWORK = f"https://cdn.jsdelivr.net/pyodide/v{RELEASE}/full/"
@@ -27,39 +24,16 @@ RUN = """async seconds => {
     const late = new Promise((_, fail) => setTimeout(() => fail(new Error('too slow')), 1000 * seconds));
     await Promise.race([commands.execute('notebook:run-all-cells'), late]);
     return JSON.stringify(notebook.content.model.toJSON()); }"""
+OTHER_TEXT = "([element, text]) => element.textContent !== text"
+MYST = re.compile(r"\{[a-z:]+\}`|`{3}\{|^\([\w-]+\)=", re.MULTILINE)
 ONCE_ON_STDERR = "Matplotlib is building the font cache"
 
 
-class Quiet(SimpleHTTPRequestHandler):
-    """Serves a folder, without a log."""
-
-    def log_message(self, *_):
-        """Nothing."""
-
-
 @pytest.fixture(scope="module")
-def address():
+def address(site):
     """Where the built site is served on this machine."""
-    if not (SITE / "lite").exists():
-        pytest.skip("the book is not built: make book")
-    with ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=SITE)) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        yield f"http://127.0.0.1:{server.server_port}"
-        server.shutdown()
-        thread.join()
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    """A browser without a window."""
-    playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
-    if not (program := shutil.which("chromium")):
-        pytest.skip("no browser: apt-get install chromium")
-    with playwright.sync_playwright() as running:
-        browser = running.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield browser
-        browser.close()
+    with served(site) as found:
+        yield found
 
 
 @pytest.fixture(scope="module")
@@ -112,10 +86,24 @@ def test_a_chapter_says_in_the_browser_what_its_notebook_stores(lite, address, c
     page.goto(f"{address}/notebooks/{chapter}.html")
     page.goto(page.locator(".dropdown-launch-buttons a").first.evaluate("link => link.href"))
     page.wait_for_function(READY)
-    install, *ran = code_cells(nbformat.reads(page.evaluate(RUN, SECONDS), 4))
+    found = nbformat.reads(page.evaluate(RUN, SECONDS), 4)
+    install, *ran = code_cells(found)
     stored = code_cells(nbformat.read(NOTEBOOKS / f"{chapter}.ipynb", 4))
     assert said(install) == []
     assert [cell.execution_count for cell in ran] == list(range(2, len(stored) + 2))
     for cell, before in zip(ran, stored, strict=True):
         assert said(cell) == said(before), before.source
+    prose = [cell.source for cell in found.cells if cell.cell_type == "markdown"]
+    assert not list(filter(MYST.search, prose))
+    if any(text.startswith("Explorer(") for cell in stored for _, text in said(cell)):
+        assert_a_menu_leads_to_another_picture(page)
     assert elsewhere == []
+
+
+def assert_a_menu_leads_to_another_picture(page):
+    """In the first explorer of a notebook, by way of the kernel."""
+    explorer = page.locator(".jp-OutputArea-output", has=page.locator(".mesh-explorer")).first
+    title, menu = explorer.locator(".title"), explorer.locator("select").first
+    before = title.text_content()
+    menu.select_option(index=1)
+    page.wait_for_function(OTHER_TEXT, arg=[title.element_handle(), before])
