@@ -134,7 +134,7 @@ class Misfit:
         return self._integrals(corners, values, 1, self._powers, is_new)[:, 0]
 
     def moments(self, corners, values, is_new=True):
-        """The same, and half its slopes in the nodal values, (m, 3): the integrals of (u_h - u) phi of squares."""
+        """The same, and half its slopes in the nodal values, (m, 3): of squares the integrals of e phi."""
         found = self._integrals(corners, values, 4, self._powers_and_moments, is_new)
         return found[:, 0], found[:, 1:]
 

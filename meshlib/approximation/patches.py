@@ -101,7 +101,7 @@ class Patches:
         return force, curvature * self._steepness(areas)[:, None, None]
 
     def _steepness(self, areas):
-        """By how much a power of the error curves more than its square: p / 2 times the mean of |e|^(p - 2)."""
+        """How much more a power of the error curves than its square: p / 2 times the mean of |e|^(p - 2)."""
         power = 2 ** self.draft.misfit.squarings
         return power / 2 * (self.error / areas) ** (1 - 2 / power)
 
