@@ -249,6 +249,6 @@ def elsewhere(function, nodes):
 
 def _error_at_rest(mesh, u, weight):
     springs = DataSprings(u, second=weight)
-    stopped = (smoothed(mesh, springs, sweeps=sweeps, tolerance=SETTLED, sliding=True).mesh for sweeps in STOPS)
+    stopped = (smoothed(mesh, springs, sweeps=most, tolerance=SETTLED, sliding=True).mesh for most in STOPS)
     error, earlier = (measured(only_swapped(found, u), u)[L2] for found in stopped)
     return error if np.isclose(error, earlier, rtol=REST) else np.nan
