@@ -45,3 +45,10 @@ def test_a_shaken_lattice_is_seeded_and_keeps_its_sides():
     with pytest.raises(MeshError) as error:
         alignment.lattice(0.6)
     assert str(error.value) == "range: jitter is 0.6; give a share from 0 to 0.5"
+
+
+def test_springs_that_find_no_rest_have_no_error():
+    """DD1's hill draws the nodes to and fro, unless its curvature counts little."""
+    *known, little, more, most = alignment.elsewhere("DD1", "33-refined")
+    assert np.isfinite([*known, little]).all() and np.isnan([more, most]).all()
+    assert np.isfinite(alignment.elsewhere("SR1", "33")).all()

@@ -73,8 +73,10 @@ def constants():
 
 def elsewhere():
     """Springs before swapping on the problems of the thesis."""
-    rows = [(function, nodes, *(f"{error:.4f}" for error in alignment.elsewhere(function, nodes)))
+    rows = [(function, nodes, *("no rest" if np.isnan(error) else f"{error:.4f}"
+                                for error in alignment.elsewhere(function, nodes)))
             for function, nodes in alignment.ELSEWHERE]
     head = "Function", "Nodes", "Start", "Swapped", *(f"Weight {w}, swapped" for w in alignment.WEIGHTS)
-    caption = "$L_2$ error on the problems of the thesis, for three weights of the second derivative."
+    caption = ("$L_2$ error on the problems of the thesis, for three weights of the second derivative; where "
+               "the springs find no rest, it depends on when they are stopped.")
     return numbered("tab-elsewhere", caption, grid(head, rows))

@@ -110,7 +110,7 @@ def table_gains(function="SR1"):
     u, rows = problems.functions[function], []
     for power in POWERS:
         found = adapted(function, limit=None, least_gain=10.0 ** -power)
-        error = f"{settled_error(found.mesh, u):.4f}"
+        error = f"{settled_error(found.mesh, u):.5f}"
         rows.append((f"$10^{{-{power}}}$", len(found.steps), found.sweeps, error))
     head = ("Least gain $\\delta/J_0$", "Steps", "Sweeps", "$L_2$ error")
     caption = (f"The combined strategy for {function}, without a limit on angles, by the gain that a step "
