@@ -25,10 +25,11 @@ function panel({ name, caption, table, turns }) {
   canvas.setAttribute("role", "img");
   const bar = element("span", { className: "bar" });
   bar.style.background = `linear-gradient(to right, ${table.join(", ")})`;
-  const scale = element("div", { className: "scale" }, element("span"), bar, element("span"));
+  const ends = [element("span"), element("span")];
+  const scale = element("div", { className: "scale" }, bar, ...ends);
   const below = element("figcaption", { textContent: caption });
   const figure = element("figure", { className: name }, canvas, scale, below);
-  return { figure, canvas, ends: [scale.firstChild, scale.lastChild] };
+  return { figure, canvas, ends };
 }
 
 // Rows of label and number at the start and in the frame shown, whose heading is given.

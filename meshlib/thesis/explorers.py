@@ -156,7 +156,7 @@ def _movement(function, nodes, springs):
         moved = smoothed(film[-1] if film else start, constants, sweeps=1, sliding=springs == SLIDING)
         film.append(moved.mesh)
         movement = moved.movement
-    return Scene(f"{function} on {nodes} nodes, {springs}", u, start, tuple(film))
+    return Scene(f"{function} on {nodes} nodes, springs {springs}", u, start, tuple(film))
 
 
 MOVEMENT = Exploration(
@@ -177,8 +177,8 @@ def _approximation(function, nodes):
     u, side = problems.functions[function], round(nodes ** 0.5)
     line = np.linspace(0, 1, side)
     start = delaunay(np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2))
-    return Scene(f"{function} approximated with {nodes} nodes, beside a lattice of {side} × {side}",
-                 u, start, (approximate(u, nodes).mesh,))
+    return Scene(f"{function} by {nodes} nodes, beside a lattice of {side} × {side}", u, start,
+                 (approximate(u, nodes).mesh,))
 
 
 APPROXIMATION = Exploration(

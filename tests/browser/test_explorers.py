@@ -1,10 +1,8 @@
 """Every control of every explorer, by keyboard and by mouse, against what Python computes."""
 import numpy as np
 import pytest
-from visiting import PLACES, elements, shown, visited
+from visiting import PLACES, assert_numbers, elements, shown, stage_of, visited
 
-from meshlib import Mesh
-from meshlib.explorer.scene import Stage, numbers
 from meshlib.thesis import explorers
 
 
@@ -32,37 +30,13 @@ def settings_of(explorer, exploration):
     return found
 
 
-def stage_of(scene, frame):
-    """The stage that a frame shows, by library objects."""
-    if not frame:
-        return scene.before
-    if not len(scene.trace):
-        return Stage(scene.function, scene.film[frame - 1], scene.swaps)
-    accepted = scene.trace[:frame][scene.trace["accepted"][:frame]]
-    return Stage(scene.function, replayed(scene.start, accepted), len(accepted))
-
-
-def replayed(mesh, accepted):
-    """The mesh after these swaps, made one by one."""
-    rows = mesh.elements.tolist()
-    for a, b, c, d in accepted[["a", "b", "c", "d"]].tolist():
-        rows = [row for row in rows if not {a, b} <= set(row)] + [[c, d, a], [d, c, b]]
-    rows = np.array(rows)
-    rows[Mesh(mesh.nodes, rows).areas < 0] = rows[Mesh(mesh.nodes, rows).areas < 0][:, ::-1]
-    return Mesh(mesh.nodes, rows)
-
-
 def assert_agrees(explorer, exploration):
     """Numbers, their texts and the mesh on the page are those of the library."""
     found = shown(explorer)
-    stage = stage_of(exploration.computed(settings_of(explorer, exploration)), found["frame"])
-    expected = numbers(stage)
-    assert [label for label, _ in found["numbers"]] == list(expected)
-    for (label, value), (_, text) in zip(found["numbers"], found["rows"], strict=True):
-        assert value == pytest.approx(expected[label], rel=1e-5, abs=1e-9), label
-        assert float(text) == pytest.approx(value, rel=0.006, abs=0.0006), label
+    scene = exploration.computed(settings_of(explorer, exploration))
+    assert_numbers(found, scene, found["frame"])
     corners = np.array(found["corners"]).reshape(-1, 3, 2)
-    assert elements(corners) == elements(stage.mesh.corners)
+    assert elements(corners) == elements(stage_of(scene, found["frame"]).mesh.corners)
     return found
 
 

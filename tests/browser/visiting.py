@@ -5,6 +5,12 @@ from contextlib import contextmanager
 from http import HTTPStatus
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
+import numpy as np
+import pytest
+
+from meshlib import Mesh
+from meshlib.explorer.scene import Stage, numbers
+
 SUBPATH = "/some/where"  # a site need not be at the root of its host
 PLACES = {"swaps": "03-methods", "refinement": "05-results", "movement": "05-results",
           "limits": "06-modifications", "orders": "06-modifications", "approximation": "07-further-work"}
@@ -94,3 +100,33 @@ def shown(explorer):
 def elements(corners):
     """Comparable form of the corners of elements."""
     return sorted(sorted(map(tuple, element)) for element in corners.round(9).tolist())
+
+
+def stage_of(scene, frame):
+    """The stage that a frame shows, by library objects."""
+    if not frame:
+        return scene.before
+    if not len(scene.trace):
+        return Stage(scene.function, scene.film[frame - 1], scene.swaps)
+    accepted = scene.trace[:frame][scene.trace["accepted"][:frame]]
+    return Stage(scene.function, replayed(scene.start, accepted), len(accepted))
+
+
+def replayed(mesh, accepted):
+    """The mesh after these swaps, made one by one."""
+    rows = mesh.elements.tolist()
+    for a, b, c, d in accepted[["a", "b", "c", "d"]].tolist():
+        rows = [row for row in rows if not {a, b} <= set(row)] + [[c, d, a], [d, c, b]]
+    rows = np.array(rows)
+    rows[Mesh(mesh.nodes, rows).areas < 0] = rows[Mesh(mesh.nodes, rows).areas < 0][:, ::-1]
+    return Mesh(mesh.nodes, rows)
+
+
+def assert_numbers(found, scene, frame):
+    """Numbers and their texts on the page are those of the library."""
+    expected = numbers(stage_of(scene, frame))
+    assert found["frame"] == frame
+    assert [label for label, _ in found["numbers"]] == list(expected)
+    for (label, value), (_, text) in zip(found["numbers"], found["rows"], strict=True):
+        assert value == pytest.approx(expected[label], rel=1e-5, abs=1e-9), (label, scene.title, frame)
+        assert float(text) == pytest.approx(value, rel=0.006, abs=0.0006), label
