@@ -36,8 +36,8 @@ def film(exploration, view):
         return switch, [switch]
     frames = ipywidgets.IntSlider(max=0, description=exploration.film, style=LABEL, layout={"width": "auto"})
     play = ipywidgets.Play(interval=TICK)
-    ipywidgets.jslink((play, "value"), (frames, "value"))
-    ipywidgets.jslink((play, "max"), (frames, "max"))
+    for trait in ("max", "value"):  # what is first leads at the start
+        ipywidgets.jslink((frames, trait), (play, trait))
     ipywidgets.jslink((frames, "value"), (view, "frame"))
     return frames, [frames, play]
 

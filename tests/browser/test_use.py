@@ -15,7 +15,7 @@ from meshlib.thesis import explorers
 
 AXE = "axe-core@4"
 MARGIN = 6  # pixels around a mesh, as in drawing.js
-MOVING = ".title, .note, .readout, .scale span:not(.bar), output, caption, th, td"  # texts, in places that stay
+MOVING = ".title, .note, .readout, .scale span:not(.bar), output, caption, th, td"  # texts, in their places
 BOXES = f"""e => {{ const top = e.querySelector('.mesh-page').getBoundingClientRect().y;
     return Array.from(e.querySelectorAll('.mesh-page *:not({MOVING}):not(option)'), part => {{
         const {{ x, y, width, height }} = part.getBoundingClientRect();
