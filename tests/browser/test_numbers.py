@@ -1,17 +1,15 @@
 """Numbers of random states, and how fast and how heavy explorers are."""
 import gzip
-import os
 import statistics
 
 import numpy as np
 import pytest
-from visiting import PLACES, READY_SECONDS, assert_numbers, shown, visited
+from visiting import PLACES, READY_SECONDS, assert_numbers, shown, skip_unless_timed, visited
 
 from meshlib.thesis import explorers
 
 STATES = {"swaps": 60, "refinement": 50, "limits": 40, "orders": 40, "movement": 6, "approximation": 4}
 SEED = 200  # of the states
-BUSY = 0.75  # load for each processor above which times say nothing
 FRAME, WORST, WEIGHT, USABLE = 16, 50, 1.5e6, 1000  # milliseconds and bytes
 TIMED = """async e => {
     const input = e.querySelector('.mesh-controls select, .mesh-controls input'), times = [];
@@ -51,9 +49,8 @@ def test_there_are_two_hundred_states():
 
 @pytest.fixture
 def quiet():
-    """A machine with nothing else to do."""
-    if os.getloadavg()[0] > BUSY * os.cpu_count():
-        pytest.skip(f"the machine is busy: load {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors")
+    """A machine that somebody says has nothing else to do."""
+    skip_unless_timed()
 
 
 @pytest.mark.parametrize("name", PLACES)
