@@ -77,5 +77,6 @@ def test_each_control_leads_to_the_state_that_python_computes(pages, name, way):
     before = shown(explorer)
     moved_by(way, explorer, f"{name}-frame")
     after = assert_agrees(explorer, exploration)
-    assert after["pictures"] != before["pictures"]
     assert after["frame"] != before["frame"]
+    if after["corners"] != before["corners"]:  # a limit may leave nothing to swap
+        assert after["pictures"] != before["pictures"]
