@@ -24,6 +24,11 @@ RUN = """async seconds => {
     const late = new Promise((_, fail) => setTimeout(() => fail(new Error('too slow')), 1000 * seconds));
     await Promise.race([commands.execute('notebook:run-all-cells'), late]);
     return JSON.stringify(notebook.content.model.toJSON()); }"""
+# To the first explorer: JupyterLab hides cells that are far from those to be seen.
+SCROLL = """() => {
+    const { content } = window.jupyterapp.shell.currentWidget;
+    const drawn = cell => cell.node.querySelector('.mesh-explorer');
+    return content.scrollToItem(content.widgets.findIndex(drawn)); }"""
 # A long search, in which the last bits of a platform lead to another mesh, about as good.
 ROUNDING = "rounding-decides"
 FACTOR = 10
@@ -120,6 +125,7 @@ def of_one_size(a, b):
 
 def assert_a_menu_leads_to_another_picture(page):
     """In the first explorer of a notebook, by way of the kernel."""
+    page.evaluate(SCROLL)
     explorer = page.locator(".jp-OutputArea-output", has=page.locator(".mesh-explorer")).first
     title, menu = explorer.locator(".title"), explorer.locator("select").first
     before = title.text_content()
