@@ -5,11 +5,12 @@ shown once its address is known, as ``launch_repository`` in ``_config.yml``.
 """
 from urllib.parse import quote
 
+from wheels import REQUIREMENT
+
 LITE = "lite/notebooks/index.html?path="
 BINDER = "https://mybinder.org/v2/git/"
 COLAB = "https://colab.research.google.com/github/"
 CODE_HOST_OF_COLAB = "https://github.com/"
-REQUIREMENT = "data-dependent-mesh[fem,plot,widgets] @ git+"
 
 
 def add_launch_menu(app, pagename, templatename, context, doctree):
@@ -32,7 +33,7 @@ def hosted(repository, branch, notebook):
     if repository.startswith(CODE_HOST_OF_COLAB):
         name = repository.removeprefix(CODE_HOST_OF_COLAB)
         yield entry("Colab", f"{COLAB}{name}/blob/{branch}/{notebook}", "colab.png",
-                    f"Run this chapter on Colab, first of all: %pip install '{REQUIREMENT}{repository}'")
+                    f"Run this chapter on Colab, first of all: %pip install '{REQUIREMENT} @ git+{repository}'")
 
 
 def entry(text, url, logo, tooltip):

@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 
 import nbformat
 from references import Plain
-from wheels import all_wheels
+from wheels import REQUIREMENT, all_wheels
 
 PYODIDE_VERSION = "0.27.7"
 PYODIDE_URL = f"https://cdn.jsdelivr.net/pyodide/v{PYODIDE_VERSION}/full/pyodide.js"
@@ -25,7 +25,7 @@ KERNEL = "@jupyterlite/pyodide-kernel-extension"
 EXTENSIONS = [KERNEL, "@jupyter-widgets/jupyterlab-manager", "anywidget"]
 KERNELSPEC = {"name": "python", "display_name": "Python (Pyodide)", "language": "python"}
 APPS = ["notebooks", "tree", "lab", "edit"]
-INSTALL = "%pip install -q 'data-dependent-mesh[fem,plot,widgets]'"
+INSTALL = f"%pip install -q '{REQUIREMENT}'"
 NOTE = "JupyterLite: the library and what it needs, once in each session."
 CONTENTS = "files"
 NOTEBOOKS = re.compile("notebooks/")

@@ -11,6 +11,7 @@ from pathlib import Path
 from shutil import copy2, copytree, ignore_patterns
 from tempfile import TemporaryDirectory
 
+REQUIREMENT = "data-dependent-mesh[fem,plot,widgets]"  # of a notebook
 LIBRARY = ["meshlib", "pyproject.toml", "README.md", "LICENSE"]
 CARRIED = ["anywidget", "comm", "ipywidgets", "jupyterlab-widgets", "psygnal", "scikit-fem",
            "typing-extensions"]

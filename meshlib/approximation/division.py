@@ -5,7 +5,6 @@ from ..sides import INTERIOR
 from ..splitting import SPLITS
 
 WORTH = 0.1  # of the mean error of an element, from which on it is divided
-WORST = 0.3  # of the largest error, from which on an element is bisected
 ALONE = 50  # elements that are tried one by one
 
 
@@ -27,9 +26,7 @@ def bisect(draft, most):
     most : int
         New nodes at most.
     """
-    error = draft.errors + draft.edge_errors()
-    order = np.argsort(-error, kind="stable")
-    order = order[error[order] >= WORST * error[order[0]]][:most]
+    order = draft.worst(most)
     tried = [order[:len(order) >> k] for k in range(len(order).bit_length())]
     for marked in (*tried, *order[1:ALONE, None]):
         elements, parents, ends, _ = SPLITS["longest-edge"](draft.mesh, np.sort(marked))

@@ -7,6 +7,7 @@ from ..mesh import Mesh
 from ..sides import sides_of
 from ..topology import around_nodes, grouped
 
+WORST = 0.3  # of the largest error, from which on an element is one of the worst
 BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
 
 
@@ -88,6 +89,12 @@ class Draft:
         boundary = np.flatnonzero(self.mesh.boundary)
         np.add.at(found, self.mesh.edge_elements[boundary, 0], self.edge_error_of(self.mesh.edges[boundary]))
         return found
+
+    def worst(self, most, share=WORST):
+        """The elements of largest error, so many at most, down to a share of the largest."""
+        error = self.errors + self.edge_errors()
+        order = np.argsort(-error, kind="stable")[:most]
+        return order[error[order] >= share * error[order[0]]]
 
     def patches(self):
         """The elements around each node."""

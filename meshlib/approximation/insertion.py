@@ -16,8 +16,8 @@ import numpy as np
 from ..choice import independent
 from ..sides import INTERIOR
 from ..topology import TAILS
+from .draft import WORST
 
-WORST = 0.3  # of the largest error, from which on an element gets a node at once
 LEAST = 1e-9  # of the same, at which nothing is left that could be split
 CANDIDATES = 2  # elements looked at for each node to be inserted
 KINDS = 5  # middles of the three edges, centroid, point of largest error
@@ -28,7 +28,7 @@ def insert(draft, count, share=WORST):
 
     Where none of these can be split, others are looked at.
     """
-    worst = _worst(draft, int(CANDIDATES * count * WORST / share), share)
+    worst = draft.worst(int(CANDIDATES * count * WORST / share), share)
     stars = _Stars(draft, worst)
     gain = stars.gain(draft).reshape(KINDS, -1)
     kind, column = gain.argmax(axis=0), np.arange(len(worst))
@@ -42,13 +42,6 @@ def insert(draft, count, share=WORST):
     elif share > LEAST:
         return insert(draft, count, share / 10)
     return len(chosen)
-
-
-def _worst(draft, most, share):
-    """The elements of largest error, down to a share of the largest."""
-    error = draft.errors + draft.edge_errors()
-    order = np.argsort(-error, kind="stable")[:most]
-    return order[error[order] >= share * error[order[0]]]
 
 
 class _Stars:

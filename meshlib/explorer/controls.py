@@ -5,7 +5,7 @@ from itertools import product
 
 from .. import checks
 
-KINDS = MENU, SLIDER = "menu", "slider"
+MENU, SLIDER = "menu", "slider"
 
 
 @dataclass(frozen=True)

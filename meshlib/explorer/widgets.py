@@ -9,7 +9,7 @@ except ImportError as error:
 
 COLUMNS = "repeat(auto-fit, minmax(min(19rem, 100%), 1fr))"
 STAGES = "start mesh", "adapted mesh"
-TICK = 350  # milliseconds between frames of a film, as in page.js
+TICK = 350  # milliseconds between frames of a film, as in controls.js
 LABEL = {"description_width": "6.5rem"}
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import DataSprings, Interpolant, checks, delaunay, problems, refined, smoothed, swapped
 from ..draws import Draws
+from ..movement import MOST_SWEEPS
 from .measures import GRID_POINTS, L2, Remembered, measured
 
 CRITERION, NORM = "jnd", 2  # of section 5.2
@@ -111,9 +112,9 @@ def only_swapped(mesh, u, min_angle=None):
     return swapped(mesh, u, CRITERION, NORM, order, min_angle).mesh
 
 
-def only_moved(mesh, u, sliding=True, **constants):
-    """Springs that follow the data, brought to rest."""
-    return smoothed(mesh, DataSprings(u, **constants), tolerance=SETTLED, sliding=sliding).mesh
+def only_moved(mesh, u, sliding=True, sweeps=MOST_SWEEPS, **constants):
+    """Springs that follow the data, brought to rest if so many sweeps do it."""
+    return smoothed(mesh, DataSprings(u, **constants), sweeps=sweeps, tolerance=SETTLED, sliding=sliding).mesh
 
 
 def moved_and_swapped(mesh, u, sliding=True, min_angle=None, **constants):
@@ -233,7 +234,7 @@ ELSEWHERE = (("SR1", "81"), ("SR2", "81"), ("SR3", "81"), ("SR1", "33"), ("SR2",
              ("DD1", "33-refined"))
 WEIGHTS = 1, 10, 100  # of the second derivative
 REST = 1e-3  # relative, of errors
-STOPS = 1000, 995  # sweeps, at either of which springs at rest give the same error
+STOPS = MOST_SWEEPS, MOST_SWEEPS - 5  # sweeps, at either of which springs at rest give the same error
 
 
 @cache
@@ -248,7 +249,6 @@ def elsewhere(function, nodes):
 
 
 def _error_at_rest(mesh, u, weight):
-    springs = DataSprings(u, second=weight)
-    stopped = (smoothed(mesh, springs, sweeps=most, tolerance=SETTLED, sliding=True).mesh for most in STOPS)
-    error, earlier = (measured(only_swapped(found, u), u)[L2] for found in stopped)
+    stopped = (moved_and_swapped(mesh, u, sweeps=most, second=weight) for most in STOPS)
+    error, earlier = (measured(found, u)[L2] for found in stopped)
     return error if np.isclose(error, earlier, rtol=REST) else np.nan

@@ -3,7 +3,6 @@ import numpy as np
 
 from .. import criteria, problems
 from ..approximation import approximate
-from ..delaunay import delaunay
 from ..explorer import Exploration, Explorer, Scene, menu, slider
 from ..marking import MARKS
 from ..movement import smoothed
@@ -11,6 +10,7 @@ from ..refinement import refined
 from ..splitting import SPLITS
 from ..springs import DataSprings
 from ..swapping import swapped
+from .limit import lattice
 
 NORM_NAMES = {1: "L1", 2: "L2", "max": "max", "lexicographic": "lexicographic"}
 THESIS = "SR1", "SR2", "SR3", "DD1"
@@ -174,9 +174,8 @@ def movement(**settings):
 
 
 def _approximation(function, nodes):
-    u, side = problems.functions[function], round(nodes ** 0.5)
-    line = np.linspace(0, 1, side)
-    start = delaunay(np.stack(np.meshgrid(line, line), axis=-1).reshape(-1, 2))
+    u, start = problems.functions[function], lattice(nodes)
+    side = round(start.n_nodes ** 0.5)
     return Scene(f"{function} by {nodes} nodes, beside a lattice of {side} × {side}", u, start,
                  (approximate(u, nodes).mesh,))
 
