@@ -33,7 +33,8 @@ def hosted(repository, branch, notebook):
     if repository.startswith(CODE_HOST_OF_COLAB):
         name = repository.removeprefix(CODE_HOST_OF_COLAB)
         yield entry("Colab", f"{COLAB}{name}/blob/{branch}/{notebook}", "colab.png",
-                    f"Run this chapter on Colab, first of all: %pip install '{REQUIREMENT} @ git+{repository}'")
+                    "Run this chapter on Colab, first of all: "
+                    f"%pip install '{REQUIREMENT} @ git+{repository}'")
 
 
 def entry(text, url, logo, tooltip):
