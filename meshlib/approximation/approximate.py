@@ -15,7 +15,7 @@ from .misfit import Misfit
 from .ridges import in_turn
 from .samples import Samples
 from .sizes import least
-from .starts import corners, fit, start
+from .starts import corners, fit, regular, start
 from .strategy import LAST_MOVES, SQUARINGS, polish, steps, strategy
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
@@ -41,8 +41,9 @@ class Approximation:
     evaluations : int
         Points at which the function was evaluated.
     history : structured ndarray
-        A row for each step: ``step`` (``"grown"``, ``"moved"`` or ``"renewed"``), and what
-        there was after it: ``nodes``, ``elements``, ``error``, ``evaluations``.
+        A row for each step: ``step`` (``"grown"``, ``"moved"``, ``"renewed"``, or ``"compared"``
+        with a regular mesh), and what there was after it: ``nodes``, ``elements``, ``error``,
+        ``evaluations``.
     seed : int
     norm : {"L2", "max"}
     """
@@ -92,7 +93,7 @@ def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0
         times as long.
     norm : {"L2", "max"}
         Whether the mean square of the error or the largest is to be small. The latter is
-        found by lowering the integral of the eighth power, after the square.
+        found by lowering the integral of the sixteenth power, after the square.
 
     Returns
     -------
@@ -165,10 +166,13 @@ class _Task:
         ridge = self._ridge(misfit, nodes)
         if ridge is not None:
             draft = Draft(misfit, ridge, self.norm)
+            if self.norm == "max":
+                draft.measure(SQUARINGS)
             return self._run(draft, LAST_MOVES, partial(polish, draft))
         draft = Draft(misfit, first, self.norm)
         fit(draft, nodes)
-        return self._run(draft, steps(draft, nodes), partial(strategy, draft, nodes))
+        lattice = None if isinstance(self.domain, Mesh) else regular(self.domain, nodes)
+        return self._run(draft, steps(draft, nodes), partial(strategy, draft, nodes, regular=lattice))
 
     def within(self, tolerance):
         """The mesh of about the fewest nodes whose error is within the tolerance."""
@@ -204,7 +208,7 @@ class _Task:
         return self._result(draft, history)
 
     def _result(self, draft, history):
-        return Approximation(draft.mesh, draft.values, draft.error, draft.misfit.evaluations,
+        return Approximation(draft.mesh, draft.values * draft.misfit.unit, draft.error, draft.misfit.evaluations,
                              np.array(history, dtype=STEP), self.seed, self.norm)
 
 

@@ -19,6 +19,7 @@ class Draft:
     Attributes
     ----------
     nodes, values, elements : (N, 2), (N,), (T, 3) ndarray
+        Values are counted in the misfit's unit.
     side : (N,) ndarray of int
         Number of the straight side of the domain on which a node lies; INTERIOR or CORNER.
     errors : (T,) ndarray of float
@@ -31,10 +32,14 @@ class Draft:
     """
 
     def __init__(self, misfit, mesh, norm="L2"):
-        self.norm, self.misfit, self.nodes, self.elements = norm, misfit, mesh.nodes, mesh.elements
-        self.boundary = sides_of(mesh)
+        self.norm, self.misfit = norm, misfit
+        self.begin(mesh)
+
+    def begin(self, mesh):
+        """Take over a mesh."""
+        self.nodes, self.elements, self.boundary = mesh.nodes, mesh.elements, sides_of(mesh)
         self.side = self.boundary.of_node.copy()
-        self.values = misfit.values(*(np.ascontiguousarray(v) for v in mesh.nodes.T))
+        self.values = self.misfit.values(*(np.ascontiguousarray(v) for v in mesh.nodes.T))
         self.settle(np.full(mesh.n_elements, np.nan), np.ones(mesh.n_elements, dtype=bool))
 
     def settle(self, errors, fresh):
@@ -53,11 +58,17 @@ class Draft:
     def error(self):
         """The norm of the error."""
         if self.norm == "max":
-            return self.misfit.largest(self.nodes[self.elements], self.values[self.elements])
-        return float(np.sqrt(self.errors.sum()))
+            return float(self._largest * self.misfit.unit)
+        return float(np.sqrt(self.errors.sum())) * self.misfit.unit
+
+    @property
+    def _largest(self):
+        return self.misfit.largest(self.nodes[self.elements], self.values[self.elements])
 
     def measure(self, squarings):
-        """From now on integrate the power 2 ** squarings of the error."""
+        """From now on integrate the power 2 ** squarings of the error, which is counted in about its largest."""
+        unit = 2.0 ** np.round(np.log2(largest)) if (largest := self._largest) > 0 else 1.0
+        self.values, self.misfit.unit = self.values / unit, self.misfit.unit * unit
         self.misfit.squarings = squarings
         self.settle(np.full(len(self.elements), np.nan), np.ones(len(self.elements), dtype=bool))
 

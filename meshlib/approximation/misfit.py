@@ -20,7 +20,7 @@ DEEPEST = 6  # divisions of an element into four
 LONGEST = 2.5  # spacings: how long a part of an element may be
 MOST_SLICES = 5  # halvings of the longest side
 FLATTEST = 1e-5  # area over the square of the longest side, below which an element is refused
-POINTS_AT_ONCE = 200_000
+POINTS_AT_ONCE = 30_000  # as many as fit into a fast cache with what is computed from them
 ORDER = np.arange(3)
 
 
@@ -102,20 +102,23 @@ class Misfit:
     Attributes
     ----------
     squarings : int
-        How often the error is squared: once for the L2 norm, three times for its eighth power.
+        How often the error is squared: once for the L2 norm, four times for its sixteenth power.
+    unit : float
+        In which values are counted, a power of two near the largest error, so that high
+        powers neither vanish nor overflow.
     """
 
-    squarings = 1
+    squarings, unit = 1, 1.0
 
     def __init__(self, function, spacing, sharpest=0.0):
         self.function, self.spacing, self.sharpest = function, spacing, sharpest
         self.evaluations = 0
 
     def values(self, x, y):
-        """Values of the function, finite and of the shape of x and y, or a MeshError."""
+        """Values of the function in units, finite and of the shape of x and y, or a MeshError."""
         found = checks.function_values(self.function, x, y)
         self.evaluations += found.size
-        return found
+        return found if self.unit == 1 else found / self.unit
 
     def on_elements(self, corners, values, is_new=True):
         """Integral of the power of the error over each element; infinity for one that is refused.
@@ -146,7 +149,7 @@ class Misfit:
         for kind in np.unique(divided[allowed]):
             points, weights = rule(*divmod(int(kind), MOST_SLICES + 1))
             rows = np.flatnonzero(divided == kind)
-            for part in np.array_split(rows, -(-len(rows) * len(weights) // POINTS_AT_ONCE)):
+            for part in _at_once(rows, len(weights)):
                 turn = _from_longest(sides[part])
                 miss = self._misses(_turned(corners[part], turn), _turned(values[part], turn), points)
                 found[part] = areas[part, None] * integrand(miss, points, weights, turn)
@@ -169,7 +172,7 @@ class Misfit:
         for kind in np.unique(kinds):
             points = places(*divmod(int(kind), MOST_SLICES + 1))
             rows = np.flatnonzero(kinds == kind)
-            for part in np.array_split(rows, -(-len(rows) * len(points) // POINTS_AT_ONCE)):
+            for part in _at_once(rows, len(points)):
                 turn = _from_longest(squared_sides(corners[part]))
                 miss = self._misses(_turned(corners[part], turn), _turned(values[part], turn), points)
                 found = max(found, np.abs(miss).max())
@@ -242,7 +245,14 @@ def doubled_areas(corners):
 
 def squared_sides(corners):
     """Squared length of the side opposite each corner, (m, 3)."""
-    return ((corners[:, TAILS] - corners[:, HEADS]) ** 2).sum(axis=2)
+    sides = corners.take(TAILS, axis=1) - corners.take(HEADS, axis=1)
+    sides *= sides
+    return sides[..., 0] + sides[..., 1]
+
+
+def _at_once(rows, points):
+    """The rows, each with so many points, in parts."""
+    return np.array_split(rows, min(len(rows), -(-len(rows) * points // POINTS_AT_ONCE)))
 
 
 def _from_longest(sides):

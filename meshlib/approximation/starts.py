@@ -27,6 +27,17 @@ def start(domain, nodes, seed):
     return delaunay(low + lattice / shape * size)
 
 
+def regular(domain, nodes):
+    """The lattice of nearly square cells on a rectangle that has nearly so many nodes and no more."""
+    low, high = corners(domain)
+    width, height = high - low
+    rows = max(2, min(int(np.sqrt(nodes * height / width)), nodes // 2))
+    columns = max(2, nodes // rows)
+    ticks = np.linspace(0, 1, columns), np.linspace(0, 1, rows)
+    lattice = np.stack(np.meshgrid(*ticks), axis=-1).reshape(-1, 2)
+    return delaunay(low + lattice * (high - low)) if rows * columns <= nodes else None
+
+
 def corners(domain):
     """Lower left and upper right corner of a rectangle."""
     try:

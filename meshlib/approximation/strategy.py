@@ -16,22 +16,27 @@ GROWTH = 0.25  # of the nodes, inserted at once at most
 FEW_PASSES = 4  # of swaps between two insertions
 SMALLEST = 40  # nodes of a mesh whose elements are divided
 DIVISION, FEW_DIVISION = 4, 2  # times the nodes at which the mesh was improved before; with few nodes
-EARLY_ROUNDS, ROUNDS, LAST_MOVES = 3, 8, 4
-MANY = 1600  # nodes, from which on there are no more rounds than that
-MOST_TIMES = 3  # as many rounds with few nodes
+EARLY_ROUNDS, ROUNDS, LAST_MOVES = 3, 8, 6
+MANY = 1600  # nodes, for which there are so many rounds
+FEWEST_TIMES, MOST_TIMES = 0.6, 3  # as many rounds with more nodes, and with fewer
 TAKEN_OUT = 0.2  # of the nodes in the first round, less in each further one
-SQUARINGS = 3  # of the error, whose integral is lowered where the largest error matters
+SQUARINGS = 4  # of the error, whose integral is lowered where the largest error matters
 LEVELLINGS = 8  # rounds of it
+LIKELY = 1.3  # times the error at which a regular mesh is worth to be improved
 
 
 def steps(draft, n_nodes):
-    """How many steps there will be."""
+    """At most how many steps there will be."""
     levellings = 2 * LEVELLINGS * (draft.norm == "max")
-    return sum(2 * rounds + 2 for _, rounds in _sizes(draft, n_nodes)) + LAST_MOVES + levellings
+    return sum(2 * rounds + 2 for _, rounds in _sizes(draft, n_nodes)) + 2 * LAST_MOVES + levellings + 2
 
 
-def strategy(draft, n_nodes, note):
-    """Adapt a draft with so many nodes; ``note`` is told after each step what it was."""
+def strategy(draft, n_nodes, note, regular=None):
+    """Adapt a draft with so many nodes; ``note`` is told after each step what it was.
+
+    A regular mesh of at most so many nodes, if there is one, is tried at the end:
+    for functions of nearly constant second derivatives none is better.
+    """
     for size, rounds in _sizes(draft, n_nodes):
         divided(draft, size)
         grown(draft, size)
@@ -43,6 +48,23 @@ def strategy(draft, n_nodes, note):
     if draft.norm == "max":
         draft.measure(SQUARINGS)
         in_rounds(draft, n_nodes, LEVELLINGS, note)
+    if regular is not None:
+        beside_regular(draft, n_nodes, regular, note)
+
+
+def beside_regular(draft, n_nodes, regular, note):
+    """Improve a regular mesh as well if it is about as good, and go on with the better one."""
+    best, within = Best(draft), LIKELY * draft.error
+    best.offer()
+    draft.begin(regular)
+    swap(draft)
+    if draft.error <= within:
+        grown(draft, n_nodes)
+        note("grown")
+        polish(draft, note)
+        best.offer()
+    best.restore()
+    note("compared")
 
 
 def in_rounds(draft, n_nodes, rounds, note):
@@ -70,8 +92,8 @@ def _sizes(draft, n_nodes):
     sizes = [n_nodes]
     while not draft.misfit.sharpest and (before := _before(sizes[0])) > draft.n_nodes:
         sizes.insert(0, before)
-    more = np.clip(np.sqrt(MANY / n_nodes), 1, MOST_TIMES)
-    return [*((size, EARLY_ROUNDS) for size in sizes[:-1]), (n_nodes, round(more * ROUNDS))]
+    times = np.clip(np.sqrt(MANY / n_nodes), FEWEST_TIMES, MOST_TIMES)
+    return [*((size, EARLY_ROUNDS) for size in sizes[:-1]), (n_nodes, round(times * ROUNDS))]
 
 
 def _before(n_nodes):
