@@ -1,6 +1,23 @@
 """Which of many changes can be made at once: the best, none of which touches what a better one does."""
 import numpy as np
 
+BITS = 26  # of a number that is compared
+
+
+def coarse(numbers):
+    """Numbers rounded to about eight digits, so that those which differ by rounding are equal.
+
+    Examples
+    --------
+    >>> 0.1 + 0.2 == 0.3
+    False
+    >>> one, other, infinite = coarse(np.array([0.1 + 0.2, 0.3, np.inf]))
+    >>> bool(one == other), float(infinite)
+    (True, inf)
+    """
+    mantissa, exponent = np.frexp(numbers)
+    return np.ldexp(np.round(np.ldexp(mantissa, BITS)), exponent - BITS)
+
 
 def independent(gain, rows, items, n_items):
     """Candidates of which none shares an item with a better one, best first.

@@ -1,5 +1,8 @@
 """Meshes made for a known function: what must hold after every step, and how near the limit they come."""
+import os
 import signal
+import subprocess
+import sys
 from types import SimpleNamespace
 
 import numpy as np
@@ -100,6 +103,24 @@ def test_the_same_seed_gives_the_same_mesh_and_another_another():
     one, again, other = (approximate(front, 50, seed=seed) for seed in (0, 0, 1))
     assert one.mesh.equals(again.mesh) and np.array_equal(one.history, again.history)
     assert not one.mesh.equals(other.mesh)
+
+
+MESHES_MADE = """
+import numpy as np
+from meshlib import approximate, problems
+for norm in ("L2", "max"):
+    for name in ("franke", "DD1"):
+        found = approximate(problems.functions[name], 60, norm=norm).mesh
+        print(found.nodes.tobytes().hex(), found.elements.tobytes().hex())
+"""
+
+
+def test_processors_that_round_differently_give_the_same_mesh():
+    """Products of matrices, and exponentials, differ in their last bits from one processor to another."""
+    older = {"OPENBLAS_CORETYPE": "Prescott", "NPY_DISABLE_CPU_FEATURES": "X86_V4,X86_V3"}
+    one, other = (subprocess.run([sys.executable, "-W", "ignore", "-c", MESHES_MADE], env=os.environ | more,
+                                 check=True, capture_output=True, text=True).stdout for more in ({}, older))
+    assert len(one.split()) == 8 and other == one
 
 
 def test_a_plane_costs_nothing():

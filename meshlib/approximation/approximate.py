@@ -117,7 +117,11 @@ def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0
     densely as a fortieth of the domain has it, and long elements along their length.
 
     A function that is constant along parallel lines gets a mesh of its own on a
-    rectangle, unless angles are limited: all its nodes are on the boundary.
+    rectangle, unless angles are limited: all its nodes are on the boundary. On a
+    rectangle a lattice is tried as well: of x^2 - y^2 no mesh is better.
+
+    Steps and gains are rounded before they are compared, so that the mesh does not
+    depend on how a processor rounds, unless the function itself does strongly.
 
     References
     ----------

@@ -1,7 +1,7 @@
 r"""Nodes taken out again where they serve least, and nodes put on the boundary that all but lie on it."""
 import numpy as np
 
-from ..choice import independent
+from ..choice import coarse, independent
 from ..sides import CORNER, INTERIOR
 
 LOOKED_AT = 3  # nodes for each that is to be taken out
@@ -49,11 +49,12 @@ class _Pairs:
 
     def keep_likely(self, draft, number):
         """Keep so many nodes, and of each the few neighbours towards which the function bends least."""
-        bend = np.abs(draft.bends_of(np.stack([self.i, self.j], axis=1)))
-        order, rank = self._ranked(bend)
+        bend = draft.bends_of(np.stack([self.i, self.j], axis=1))
+        bent = _without_noise(draft, bend ** 2 * draft.patch_sums(draft.mesh.areas)[self.i])
+        order, rank = self._ranked(bent)
         first = order[rank == 0]
         worth = np.full(draft.n_nodes, np.inf)
-        worth[self.i[first]] = bend[first] ** 2 * draft.patch_sums(draft.mesh.areas)[self.i[first]]
+        worth[self.i[first]] = bent[first]
         few = np.zeros(draft.n_nodes, dtype=bool)
         few[np.argsort(worth, kind="stable")[:number]] = True
         chosen = np.sort(order[(rank < TOWARDS) & few[self.i[order]]])
@@ -82,7 +83,7 @@ class _Pairs:
         nodes, k, row = nodes[stays].copy(), k[stays], row[stays]
         nodes[np.arange(len(row)), k] = self.j[row]
         after = np.bincount(row, draft.error_of(nodes), len(self.i))
-        return after - draft.patch_sums(draft.errors)[self.i] + self._edge_costs(draft)
+        return _without_noise(draft, after - draft.patch_sums(draft.errors)[self.i] + self._edge_costs(draft))
 
     def _edge_costs(self, draft):
         """The same along the boundary, for nodes on a side: one edge in place of two."""
@@ -93,6 +94,11 @@ class _Pairs:
         old = draft.edge_error_of(np.stack([i, j], 1)) + draft.edge_error_of(np.stack([i, other], 1))
         cost[bound] = draft.edge_error_of(np.stack([other, j], 1)) - old
         return cost
+
+
+def _without_noise(draft, costs):
+    """Costs that are equal where they differ by rounding, and zero where they hardly count."""
+    return coarse(np.where(np.abs(costs) > draft.little, costs, 0))
 
 
 def beside(draft, nodes):
@@ -133,10 +139,11 @@ def settle_on_boundary(draft):
     over = _is_near(draft.nodes[ends], draft.nodes[node], foot)
     near = np.flatnonzero((draft.side[node] == INTERIOR) & over)
     gain, values = _gain(draft, node[near], element[near], ends[near], foot[near])
-    good = near[gain > 0]
+    better = gain > draft.little
+    good = near[better]
     corner, row = draft.patches().of(node[good])
-    chosen = independent(gain[gain > 0], row, corner // 3, len(draft.elements))
-    _put(draft, node[good][chosen], element[good][chosen], foot[good][chosen], values[gain > 0][chosen],
+    chosen = independent(gain[better], row, corner // 3, len(draft.elements))
+    _put(draft, node[good][chosen], element[good][chosen], foot[good][chosen], values[better][chosen],
          side[good][chosen])
     return len(chosen)
 
@@ -162,7 +169,7 @@ def _gain(draft, node, element, ends, foot):
     for end in ends.T:
         pair = np.stack([draft.nodes[end], foot], 1), np.stack([draft.values[end], values], 1)
         after = after + draft.weight * draft.misfit.on_edges(*pair)
-    return before - after, values
+    return coarse(before - after), values
 
 
 def _put(draft, node, element, foot, values, side):

@@ -3,10 +3,12 @@ from copy import copy
 
 import numpy as np
 
+from ..choice import coarse
 from ..mesh import Mesh
 from ..sides import sides_of
 from ..topology import around_nodes, grouped
 
+LITTLE = 1e-6  # of the mean error of an element, below which there is nothing to gain
 WORST = 0.3  # of the largest error, from which on an element is one of the worst
 BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
 
@@ -73,6 +75,11 @@ class Draft:
         self.settle(np.full(len(self.elements), np.nan), np.ones(len(self.elements), dtype=bool))
 
     @property
+    def little(self):
+        """An error so small that what is left of it is rounding, or not worth a change."""
+        return LITTLE * self.errors.mean()
+
+    @property
     def weight(self):
         """What a unit of the squared error along the boundary counts as."""
         return BOUNDARY_SHARE * np.sqrt(self.mesh.domain_area / self.n_nodes)
@@ -103,7 +110,7 @@ class Draft:
 
     def worst(self, most, share=WORST):
         """The elements of largest error, so many at most, down to a share of the largest."""
-        error = self.errors + self.edge_errors()
+        error = coarse(self.errors + self.edge_errors())
         order = np.argsort(-error, kind="stable")[:most]
         return order[error[order] >= share * error[order[0]]]
 

@@ -13,7 +13,7 @@ them::
 """
 import numpy as np
 
-from ..choice import independent
+from ..choice import coarse, independent
 from ..sides import INTERIOR
 from ..topology import TAILS
 from .draft import WORST
@@ -30,7 +30,7 @@ def insert(draft, count, share=WORST):
     """
     worst = draft.worst(int(CANDIDATES * count * WORST / share), share)
     stars = _Stars(draft, worst)
-    gain = stars.gain(draft).reshape(KINDS, -1)
+    gain = coarse(stars.gain(draft)).reshape(KINDS, -1)
     kind, column = gain.argmax(axis=0), np.arange(len(worst))
     best, gain = kind * len(worst) + column, gain[kind, column]
     possible = np.flatnonzero(np.isfinite(gain))
@@ -133,5 +133,6 @@ class _Stars:
 def _inner_points(draft, worst):
     """Centroid, and the point of largest error among some."""
     corners, values = draft.nodes[draft.elements[worst]], draft.values[draft.elements[worst]]
-    points, miss = draft.misfit.misses(corners, values)
-    return corners.mean(axis=1), points[np.arange(len(worst)), np.abs(miss).argmax(axis=1)]
+    weights, miss = draft.misfit.misses(corners, values)
+    weights = weights[coarse(np.abs(miss)).argmax(axis=1), :, None]
+    return corners.mean(axis=1), (weights * corners).sum(axis=1)

@@ -183,9 +183,9 @@ class Misfit:
         return values @ points.T - self.values(x, y)
 
     def misses(self, corners, values):
-        """Points in each element, (m, q, 2), and how far u_h is from u there, (m, q)."""
+        """Barycentric points, (q, 3), and how far u_h is from u there in each element, (m, q)."""
         points, _ = rule(0)
-        return points @ corners, self._misses(corners, values, points)
+        return points, self._misses(corners, values, points)
 
     def _divisions(self, areas, sides):
         """Level and halvings for each element in one number."""

@@ -9,6 +9,7 @@ REACH = 0.35  # of the extent of a patch: how far a node may go at once
 SHARES = (1.6, 0.7)  # of the step, tried one after the other: beyond the minimum, as others move as well
 WORTHWHILE = 1e-4  # gain foreseen, relative to the error of the patch, from which on a node is moved
 GAIN = 1e-10  # relative; smaller gains are rounding
+FINEST = 2.0 ** -12  # of the extent of a patch, of which steps are multiples
 CURVED = 1e-3  # smallest curvature of the model, relative to its largest
 STEPS = 2  # of plain Python, to give a node its colour
 
@@ -30,6 +31,7 @@ class _Sweep:
     def __init__(self, draft):
         draft.nodes, draft.values, draft.fresh = draft.nodes.copy(), draft.values.copy(), draft.fresh.copy()
         self.draft, self.around, self.patches = draft, draft.neighbours(), draft.patches()
+        self.little = draft.little
         self.errors, self.moments = draft.misfit.moments(draft.nodes[draft.elements],
                                                          draft.values[draft.elements], is_new=False)
 
@@ -48,7 +50,7 @@ class _Sweep:
             return 0
         patches = self._patches(nodes)
         step, gain = self._steps(patches)
-        left = np.flatnonzero(gain > WORTHWHILE * patches.error)
+        left = np.flatnonzero(gain > WORTHWHILE * patches.error + self.little)
         moved = 0
         for share in SHARES:
             if len(left):
@@ -66,7 +68,7 @@ class _Sweep:
         slope, curvature = patches.model(frames)
         length = _downhill(slope, curvature)
         gain = -(slope * length).sum(axis=1) / 2
-        return np.einsum("nk,nkc->nc", length, frames), gain
+        return _without_noise(np.einsum("nk,nkc->nc", length, frames), frames), gain
 
     def _try(self, nodes, step):
         """Move nodes by a step where the error falls; returns where it did."""
@@ -81,6 +83,13 @@ class _Sweep:
         self.errors[element], self.moments[element] = of_element[changed], moments[changed]
         draft.fresh[element] = True
         return better
+
+
+def _without_noise(steps, frames):
+    """Steps rounded to multiples of powers of two, so that rounding leaves no trace in the mesh."""
+    extent = np.hypot(frames[..., 0], frames[..., 1]).min(axis=1)
+    grid = FINEST * 2.0 ** np.round(np.log2(np.where(extent > 0, extent, 1)))[:, None]
+    return np.round(steps / grid) * grid
 
 
 def _downhill(slope, curvature):

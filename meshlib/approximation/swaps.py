@@ -1,11 +1,10 @@
 """Swaps that lower the error, many at a time."""
 import numpy as np
 
-from ..choice import independent
+from ..choice import coarse, independent
 from ..topology import quadrilaterals
 
 GAIN = 1e-9  # of the error of two elements, below which they stay
-LITTLE = 1e-6  # of the mean error of an element, below which two elements have nothing to gain
 
 
 def swap(draft, passes=30):
@@ -37,7 +36,7 @@ def _pass(draft):
     a, b, c, d = quads.T
     first, second = np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)
     old, new = draft.errors[pairs].sum(axis=1), np.stack([draft.error_of(first), draft.error_of(second)])
-    gain = old - new.sum(axis=0)
+    gain = coarse(old - new.sum(axis=0))
     good = np.flatnonzero(gain > GAIN * old)
     chosen = good[independent(gain[good], np.repeat(np.arange(len(good)), 2), pairs[good].ravel(),
                               len(draft.elements))]
@@ -50,7 +49,7 @@ def _promising(draft):
     mesh = draft.mesh
     edges = np.flatnonzero(~mesh.boundary & draft.fresh[mesh.edge_elements].any(axis=1))
     old = draft.errors[mesh.edge_elements[edges]].sum(axis=1)
-    return edges[old > LITTLE * draft.errors.mean()]
+    return edges[old > draft.little]
 
 
 def _exchange(draft, rows, elements, errors):
