@@ -120,8 +120,8 @@ def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0
     rectangle, unless angles are limited: all its nodes are on the boundary. On a
     rectangle a lattice is tried as well: of x^2 - y^2 no mesh is better.
 
-    Steps and gains are rounded before they are compared, so that the mesh does not
-    depend on how a processor rounds, unless the function itself does strongly.
+    Gains are rounded before they are compared, and so are steps of nodes: the mesh does
+    not depend on how a processor rounds.
 
     References
     ----------
@@ -212,7 +212,8 @@ class _Task:
         return self._result(draft, history)
 
     def _result(self, draft, history):
-        return Approximation(draft.mesh, draft.values * draft.misfit.unit, draft.error, draft.misfit.evaluations,
+        values = draft.values * draft.misfit.unit
+        return Approximation(draft.mesh, values, draft.error, draft.misfit.evaluations,
                              np.array(history, dtype=STEP), self.seed, self.norm)
 
 

@@ -68,7 +68,7 @@ class Draft:
         return self.misfit.largest(self.nodes[self.elements], self.values[self.elements])
 
     def measure(self, squarings):
-        """From now on integrate the power 2 ** squarings of the error, which is counted in about its largest."""
+        """From now on integrate the power 2 ** squarings of the error, in units of about its largest."""
         unit = 2.0 ** np.round(np.log2(largest)) if (largest := self._largest) > 0 else 1.0
         self.values, self.misfit.unit = self.values / unit, self.misfit.unit * unit
         self.misfit.squarings = squarings
