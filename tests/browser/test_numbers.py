@@ -1,5 +1,6 @@
 """Numbers of random states, and how fast and how heavy explorers are."""
 import gzip
+import re
 import statistics
 
 import numpy as np
@@ -103,6 +104,12 @@ def test_an_explorer_is_usable_soon(chromium, address, quiet, name):
 def test_pages_carry_no_state_of_widgets_that_they_do_not_show(site):
     assert not [path for path in pages_of(site)
                 if "widget-state+json" in (site / path).read_text(encoding="utf-8")]
+
+
+def test_no_page_waits_for_its_icons(site):
+    for path in pages_of(site):
+        script, = re.findall("<script.*fontawesome.js", (site / path).read_text(encoding="utf-8"))
+        assert " defer " in script, path
 
 
 @pytest.mark.parametrize("place", sorted(set(PLACES.values())))
