@@ -14,6 +14,8 @@ MENDED = {
     'data-mode="auto"  title="System Settings"': 'data-mode="auto"',
     '<summary aria-label="Toggle hidden content">': "<summary>",
     '<div role="list" class="citation-list">': '<div class="citation-list">',
+    # What follows the reader is the contents of the page; the old name of it means all links.
+    'data-bs-target=".bd-toc-nav"': 'data-bs-target="#pst-page-toc-nav"',
 }
 ICONS = re.compile(r'<script (src="[^"]*/fontawesome\.js)')
 

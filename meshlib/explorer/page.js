@@ -1,6 +1,7 @@
 // On a page without a kernel: the precomputed scenes of an atlas, by native controls.
 
 const PREFIX = "#explorer-", TAG = "tag_explorer-";
+const GROUP = 60;                                    // formulas at a time
 
 // All controls of an atlas, the view below them, and what joins them, in place of what is in the cell.
 function makePage(atlas, cell) {
@@ -125,15 +126,23 @@ async function open([name, text]) {
 const opened = (window.meshExplorers || []).map(open);
 window.meshExplorers = { push: (item) => opened.push(open(item)) };
 
-// MathJax, which keeps a page busy for long, begins once the explorers can be seen.
+// MathJax, which keeps a page busy for long, begins once the explorers can be seen, and takes
+// one group of formulas after the other, so that controls answer in between.
 parsed.then(() => {
   const settings = window.MathJax;
   if (!settings || settings.version) return;         // it is not wanted, or has begun
-  const seen = Promise.allSettled(opened).then(painted);
-  settings.startup = { pageReady: () => seen.then(() => window.MathJax.startup.defaultPageReady()) };
+  settings.startup = { pageReady: async () => {
+    await Promise.allSettled(opened).then(pause);
+    const formulas = Array.from(document.querySelectorAll(".math"));
+    for (let k = 0; k < formulas.length; k += GROUP) {
+      await window.MathJax.typesetPromise(formulas.slice(k, k + GROUP)).then(pause);
+    }
+    return window.MathJax.startup.defaultPageReady(); // what is elsewhere
+  } };
 });
 
-const painted = () => new Promise((resolve) => {
-  if (document.hidden) resolve();                    // nothing is painted then
+// Until the page has been painted and what waits is done; nothing is painted while it is hidden.
+const pause = () => new Promise((resolve) => {
+  if (document.hidden) setTimeout(resolve);
   else requestAnimationFrame(() => setTimeout(resolve));
 });
