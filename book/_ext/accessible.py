@@ -1,8 +1,9 @@
-"""Mend what the theme writes and a screen reader stumbles over.
+"""Mend what the theme writes and a screen reader stumbles over, or any reader waits for.
 
 Names that contradict the text of a button, and a list without items, are taken out of the
-finished pages.
+finished pages. The script of the icons, which is larger than a page, comes after its text.
 """
+import re
 from pathlib import Path
 
 MENDED = {
@@ -13,7 +14,10 @@ MENDED = {
     'data-mode="auto"  title="System Settings"': 'data-mode="auto"',
     '<summary aria-label="Toggle hidden content">': "<summary>",
     '<div role="list" class="citation-list">': '<div class="citation-list">',
+    # What follows the reader is the contents of the page; the old name of it means all links.
+    'data-bs-target=".bd-toc-nav"': 'data-bs-target="#pst-page-toc-nav"',
 }
+ICONS = re.compile(r'<script (src="[^"]*/fontawesome\.js)')
 
 
 def mend(app, exception):
@@ -30,6 +34,7 @@ def mend_page(path):
     before = after = path.read_text(encoding="utf-8")
     for wrong, right in MENDED.items():
         after = after.replace(wrong, right)
+    after = ICONS.sub(r"<script defer \1", after)
     if after != before:
         path.write_text(after, encoding="utf-8")
 

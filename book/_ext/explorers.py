@@ -15,7 +15,10 @@ from meshlib.thesis.explorers import ALL
 
 TAG = "tag_explorer-"
 SCRIPT, STYLES, FOLDER = "explorers.js", "explorers.css", "explorers"
+WIDGETS = "application/vnd.jupyter.widget-state+json"  # longer than all the rest of a page
 SLOW = "approximation",  # seconds for each state, so that all cores share them
+FIRST = 100  # of the scripts; those of Sphinx have 200
+LAST = 900  # of the listeners, once others have added their scripts
 logger = logging.getLogger(__name__)
 
 
@@ -31,7 +34,8 @@ def write(folder, names=tuple(ALL)):
         # mtime: the same states make the same file
         packed = base64.b64encode(gzip.compress(pages, mtime=0)).decode()
         # A script and not data, since pages opened from a file may load nothing else.
-        (folder / FOLDER / f"{name}.js").write_text(f'meshExplorers.open("{name}", "{packed}");\n')
+        (folder / FOLDER / f"{name}.js").write_text(
+            f'(window.meshExplorers ||= []).push(["{name}", "{packed}"]);\n')
 
 
 def parallel(function, items):
@@ -46,14 +50,19 @@ def write_all(app):
 
 
 def load(app, page, template, context, doctree):
-    """Have a page load the scripts if there is an explorer on it."""
-    if TAG in context.get("body", ""):
-        app.add_js_file(SCRIPT, loading_method="defer")
+    """Have a page load what its explorers need, and nothing for widgets, which no page shows."""
+    context["script_files"][:] = [script for script in context["script_files"]
+                                  if script.attributes.get("type") != WIDGETS]
+    names = [name for name in ALL if TAG + name in context.get("body", "")]
+    if names:
         app.add_css_file(STYLES)
+        for file in (SCRIPT, *(f"{FOLDER}/{name}.js" for name in names)):
+            # async: unpacked while the page is read, which other scripts hold up
+            app.add_js_file(file, loading_method="async", priority=FIRST)
 
 
 def setup(app):
     """Register both steps with Sphinx."""
     app.connect("builder-inited", write_all)
-    app.connect("html-page-context", load)
+    app.connect("html-page-context", load, priority=LAST)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

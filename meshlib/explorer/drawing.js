@@ -9,6 +9,7 @@ const CIVIDIS = ["#00224e", "#083370", "#35456c", "#4f576c", "#666970", "#7d7c78
 const SHADES = 256;
 const LEVELS = 10;                                   // lines of constant value
 const MARGIN = 6;                                    // pixels around the domain
+const ROOMY = 20, THINNEST = 0.4;                    // pixels between edges of full width; least share of it
 const HEIGHT = 0.45;                                 // of the surface, in widths of the domain
 const LIGHT = [0.15, -0.45, 0.88];                   // towards the lamp
 const SHADOW = 0.4;
@@ -109,11 +110,12 @@ function drawMesh(pen, shown) {
     pen.fillStyle = css(shade(viridis, (k + 1) / LEVELS));
     pen.fill();
   });
-  // White on a dark rim can be seen on every colour of the table.
+  // White on a dark rim can be seen on every colour of the table, which it must not cover.
+  const room = shown.side / Math.sqrt(mesh.size), width = Math.min(Math.max(room / ROOMY, THINNEST), 1);
   pen.globalAlpha = 0.45;
-  strokeEdges(pen, shown, RIM, 2.2);
+  strokeEdges(pen, shown, RIM, 2.2 * width);
   pen.globalAlpha = 1;
-  strokeEdges(pen, shown, "white", 1);
+  strokeEdges(pen, shown, "white", width);
   if (mesh.tried) drawTried(pen, shown);
 }
 

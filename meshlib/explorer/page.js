@@ -1,9 +1,10 @@
 // On a page without a kernel: the precomputed scenes of an atlas, by native controls.
 
 const PREFIX = "#explorer-", TAG = "tag_explorer-";
+const GROUP = 60;                                    // formulas at a time
 
-// All controls of an atlas, the view below them, and what joins them.
-function makePage(atlas) {
+// All controls of an atlas, the view below them, and what joins them, in place of what is in the cell.
+function makePage(atlas, cell) {
   const { name, controls, initial, film } = atlas.header, view = makeView();
   const made = controls.map((c) => makeControl(c, initial[c.name], `${name}-${c.name}`));
   const frames = makeFilm(film, `${name}-frame`), link = makeLink();
@@ -31,10 +32,12 @@ function makePage(atlas) {
     if (!atEnd) (frames.input.value = wanted.get("frame"), frames.tell(), show());
     return true;
   };
-  choose();
-  window.addEventListener("hashchange", follow);
   view.tools.append(link);
-  return { root: element("div", { className: "mesh-page" }, formOf([...made, frames]), view.root), follow };
+  const root = element("div", { className: "mesh-page" }, formOf([...made, frames]), view.root);
+  cell.replaceChildren(root);                        // before it is drawn, as it has a size only there
+  window.addEventListener("hashchange", follow);
+  if (follow()) root.scrollIntoView({ behavior: "instant" });
+  else choose();
 }
 
 function formOf(parts) {
@@ -80,32 +83,66 @@ function makeLink() {
 
 // -- loading -----------------------------------------------------------------------------------
 
+// The stream is written and read here, which takes no turn of the event loop: a blob or a
+// response in its place would wait behind all other scripts of the page.
 async function unpacked(text) {
-  const packed = atob(text), bytes = new Uint8Array(packed.length);
-  for (let k = 0; k < packed.length; k++) bytes[k] = packed.charCodeAt(k);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
+  const { readable, writable } = new DecompressionStream("gzip"), writer = writable.getWriter();
+  const reader = readable.getReader(), parts = [];
+  writer.write(bytesOf(atob(text)));
+  writer.close();
+  for (let read = await reader.read(); !read.done; read = await reader.read()) parts.push(read.value);
+  return joined(parts).buffer;
 }
+
+function bytesOf(packed) {
+  const bytes = new Uint8Array(packed.length);       // by a loop: Uint8Array.from takes seven times as long
+  for (let k = 0; k < packed.length; k++) bytes[k] = packed.charCodeAt(k);
+  return bytes;
+}
+
+function joined(parts) {
+  const whole = new Uint8Array(sum(parts.map((part) => part.length)));
+  parts.reduce((start, part) => (whole.set(part, start), start + part.length), 0);
+  return whole;
+}
+
+// Once all cells are there, before scripts that wait for that, MathJax among them.
+const parsed = new Promise((resolve) => {
+  const check = () => document.readyState !== "loading" && resolve();
+  document.addEventListener("readystatechange", check);
+  check();
+});
 
 // An atlas puts its explorer into the cell with its tag, in place of the picture there.
-async function open(name, text) {
+async function open([name, text]) {
   const atlas = decode(await unpacked(text));
+  await parsed;
   for (const cell of document.querySelectorAll(`.${TAG}${name} .cell_output`)) {
-    const { root, follow } = makePage(atlas);
-    cell.replaceChildren(root);
-    if (follow()) root.scrollIntoView();
+    makePage(atlas, cell);
   }
 }
 
-// The atlases of the explorers on this page, from files beside this script.
-function load(script) {
-  const tags = Array.from(document.querySelectorAll(`[class*=${TAG}]`),
-    (cell) => Array.from(cell.classList).find((tag) => tag.startsWith(TAG)));
-  for (const tag of new Set(tags)) {
-    const src = new URL(`explorers/${tag.slice(TAG.length)}.js`, script);
-    document.head.append(element("script", { src }));
-  }
-}
+// Scripts of atlases come before or after this one, and leave what they have in a queue.
+const opened = (window.meshExplorers || []).map(open);
+window.meshExplorers = { push: (item) => opened.push(open(item)) };
 
-window.meshExplorers = { open };
-load(document.currentScript.src);
+// MathJax, which keeps a page busy for long, begins once the explorers can be seen, and takes
+// one group of formulas after the other, so that controls answer in between.
+parsed.then(() => {
+  const settings = window.MathJax;
+  if (!settings || settings.version) return;         // it is not wanted, or has begun
+  settings.startup = { pageReady: async () => {
+    await Promise.allSettled(opened).then(pause);
+    const formulas = Array.from(document.querySelectorAll(".math"));
+    for (let k = 0; k < formulas.length; k += GROUP) {
+      await window.MathJax.typesetPromise(formulas.slice(k, k + GROUP)).then(pause);
+    }
+    return window.MathJax.startup.defaultPageReady(); // what is elsewhere
+  } };
+});
+
+// Until the page has been painted and what waits is done; nothing is painted while it is hidden.
+const pause = () => new Promise((resolve) => {
+  if (document.hidden) setTimeout(resolve);
+  else requestAnimationFrame(() => setTimeout(resolve));
+});
