@@ -23,6 +23,7 @@ from meshlib.approximation.swaps import swap
 from meshlib.choice import independent
 from meshlib.quality import angles
 from meshlib.sides import CORNER, INTERIOR, sides_of
+from meshlib.thesis.studies import settled_error
 from support import lattice
 
 FRANKE = problems.functions["franke"]
@@ -232,7 +233,7 @@ def test_a_little_more_or_fewer_nodes_make_little_difference(nodes):
 @pytest.mark.parametrize("function", [front, FRANKE, problems.functions["SR2"]])
 def test_the_largest_error_is_lower_where_it_is_asked_for(function):
     mean, largest = (approximate(function, 100, norm=norm) for norm in ("L2", "max"))
-    x, y = np.meshgrid(*[np.linspace(0, 1, 401)] * 2)
+    x, y = np.meshgrid(*[np.linspace(0, 1, 2001)] * 2)
     worst = [np.abs(found.interpolant(x, y) - function(x, y)).max() for found in (mean, largest)]
     assert worst[1] < 0.95 * worst[0]
     assert largest.error == pytest.approx(worst[1], rel=0.03)
@@ -260,7 +261,15 @@ def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
     found = approximate(problems.functions["hyperbolic"], 100, norm=norm)
     assert found.mesh.validate().counts == (100, 261, 162)
     assert found.error == pytest.approx(error, rel=1e-4)
-    assert found.history["step"][-1] == "compared"
+    assert "compared" in found.history["step"]
+
+
+@pytest.mark.parametrize("function", [front, problems.functions["DD1"]])
+def test_the_error_is_confirmed_by_another_quadrature(function):
+    """On elements divided until their part has settled; DD1 has kinks."""
+    found = approximate(function, 100)
+    assert found.error == pytest.approx(settled_error(found.mesh, function), rel=1e-3)
+    assert found.history["step"][-1] == "measured"
 
 
 def test_a_lattice_fits_its_rectangle():

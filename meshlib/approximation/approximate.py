@@ -20,6 +20,7 @@ from .strategy import LAST_MOVES, SQUARINGS, polish, steps, strategy
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
 RESOLUTION = 40  # spacings along a square as large as the domain, in which features are looked for
+FINER = 4  # times as many for the error of what was found
 FEWEST, MOST_NODES = 4, 200_000  # nodes between which a tolerance is sought
 LARGEST_MIN_ANGLE = 30.0
 NORMS = "L2", "max"
@@ -37,13 +38,13 @@ class Approximation:
     values : (N,) ndarray of float64
         The function at the nodes.
     error : float
-        Norm of u - u_h over the domain, by the quadrature or at the points that led the search.
+        Norm of u - u_h over the domain, by a finer quadrature than led the search, or at more points.
     evaluations : int
         Points at which the function was evaluated.
     history : structured ndarray
-        A row for each step: ``step`` (``"grown"``, ``"moved"``, ``"renewed"``, or ``"compared"``
-        with a regular mesh), and what there was after it: ``nodes``, ``elements``, ``error``,
-        ``evaluations``.
+        A row for each step: ``step`` (``"grown"``, ``"moved"``, ``"renewed"``, ``"compared"`` with
+        a regular mesh, and at last ``"measured"`` by a finer quadrature), and what there was
+        after it: ``nodes``, ``elements``, ``error``, ``evaluations``.
     seed : int
     norm : {"L2", "max"}
     """
@@ -172,7 +173,7 @@ class _Task:
             draft = Draft(misfit, ridge, self.norm)
             if self.norm == "max":
                 draft.measure(SQUARINGS)
-            return self._run(draft, LAST_MOVES, partial(polish, draft))
+            return self._run(draft, LAST_MOVES + 1, partial(polish, draft))
         draft = Draft(misfit, first, self.norm)
         fit(draft, nodes)
         lattice = None if isinstance(self.domain, Mesh) else regular(self.domain, nodes)
@@ -209,6 +210,8 @@ class _Task:
                 if watch.stopped:
                     raise Interrupted(self._result(draft, history))
             adapt(note)
+            draft.measure_finely(FINER)
+            note("measured")
         return self._result(draft, history)
 
     def _result(self, draft, history):

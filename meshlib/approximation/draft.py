@@ -64,6 +64,11 @@ class Draft:
         return float(np.sqrt(self.errors.sum())) * self.misfit.unit
 
     @property
+    def objective(self):
+        """What is being lowered: the integral of the squared error, or the largest error."""
+        return self.errors.sum() if self.misfit.squarings == 1 else self.error
+
+    @property
     def _largest(self):
         return self.misfit.largest(self.nodes[self.elements], self.values[self.elements])
 
@@ -72,6 +77,14 @@ class Draft:
         unit = 2.0 ** np.round(np.log2(largest)) if (largest := self._largest) > 0 else 1.0
         self.values, self.misfit.unit = self.values / unit, self.misfit.unit * unit
         self.misfit.squarings = squarings
+        self._settle_anew()
+
+    def measure_finely(self, times):
+        """From now on integrate by elements that are divided so many times as finely."""
+        self.misfit.spacing /= times
+        self._settle_anew()
+
+    def _settle_anew(self):
         self.settle(np.full(len(self.elements), np.nan), np.ones(len(self.elements), dtype=bool))
 
     @property
@@ -137,8 +150,7 @@ class Best:
 
     def offer(self):
         """Keep the present state if it is better."""
-        squares = self.draft.misfit.squarings == 1
-        rank = -self.draft.n_nodes, self.draft.errors.sum() if squares else self.draft.error
+        rank = -self.draft.n_nodes, self.draft.objective
         if rank < self.rank:
             self.rank, self.kept = rank, {name: copy(getattr(self.draft, name)) for name in self.ARRAYS}
 

@@ -16,26 +16,28 @@ GROWTH = 0.25  # of the nodes, inserted at once at most
 FEW_PASSES = 4  # of swaps between two insertions
 SMALLEST = 40  # nodes of a mesh whose elements are divided
 DIVISION, FEW_DIVISION = 4, 2  # times the nodes at which the mesh was improved before; with few nodes
-EARLY_ROUNDS, ROUNDS, LAST_MOVES = 3, 8, 6
+EARLY_ROUNDS, ROUNDS, LAST_MOVES = 3, 8, 12
+STILL = 1e-3  # of the squared error: less than that is not worth another move of all nodes
 MANY = 1600  # nodes, for which there are so many rounds
 FEWEST_TIMES, MOST_TIMES = 0.6, 3  # as many rounds with more nodes, and with fewer
-TAKEN_OUT = 0.2  # of the nodes in the first round, less in each further one
+TAKEN_OUT = 0.3  # of the nodes in the first round, less in each further one
 SQUARINGS = 4  # of the error, whose integral is lowered where the largest error matters
 LEVELLINGS = 8  # rounds of it
-LIKELY = 1.3  # times the error at which a regular mesh is worth to be improved
+LIKELY = 1.5  # times the objective, at which a regular mesh is worth to be improved
+CLEARLY = 0.9  # of the squared error: what rounds of renewal would hardly gain as well
 
 
 def steps(draft, n_nodes):
     """At most how many steps there will be."""
-    levellings = 2 * LEVELLINGS * (draft.norm == "max")
-    return sum(2 * rounds + 2 for _, rounds in _sizes(draft, n_nodes)) + 2 * LAST_MOVES + levellings + 2
+    levellings = (2 * LEVELLINGS + LAST_MOVES + 1) * (draft.norm == "max")
+    return sum(2 * rounds + 2 for _, rounds in _sizes(draft, n_nodes)) + LAST_MOVES + levellings + 2
 
 
 def strategy(draft, n_nodes, note, regular=None):
     """Adapt a draft with so many nodes; ``note`` is told after each step what it was.
 
-    A regular mesh of at most so many nodes, if there is one, is tried at the end:
-    for functions of nearly constant second derivatives none is better.
+    A regular mesh of at most so many nodes, if there is one, is tried as well: for
+    functions of nearly constant second derivatives none may be better.
     """
     for size, rounds in _sizes(draft, n_nodes):
         divided(draft, size)
@@ -43,28 +45,32 @@ def strategy(draft, n_nodes, note, regular=None):
         note("grown")
         improved(draft)
         note("moved")
-        in_rounds(draft, size, rounds, note)
+        if size < n_nodes or not is_instead(draft, regular, n_nodes, CLEARLY, note):
+            in_rounds(draft, size, rounds, note)
     polish(draft, note)
     if draft.norm == "max":
         draft.measure(SQUARINGS)
         in_rounds(draft, n_nodes, LEVELLINGS, note)
-    if regular is not None:
-        beside_regular(draft, n_nodes, regular, note)
+        if is_instead(draft, regular, n_nodes, 1, note):
+            polish(draft, note)
 
 
-def beside_regular(draft, n_nodes, regular, note):
-    """Improve a regular mesh as well if it is about as good, and go on with the better one."""
-    best, within = Best(draft), LIKELY * draft.error
+def is_instead(draft, regular, n_nodes, share, note):
+    """Take a regular mesh if that lowers the objective to such a share or less; returns whether."""
+    if regular is None:
+        return False
+    best, before = Best(draft), draft.objective
     best.offer()
     draft.begin(regular)
     swap(draft)
-    if draft.error <= within:
+    if draft.objective < LIKELY * before:
         grown(draft, n_nodes)
-        note("grown")
-        polish(draft, note)
-        best.offer()
-    best.restore()
+        improved(draft)
+    is_better = draft.n_nodes == n_nodes and draft.objective < share * before
+    if not is_better:
+        best.restore()
     note("compared")
+    return is_better
 
 
 def in_rounds(draft, n_nodes, rounds, note):
@@ -81,10 +87,13 @@ def in_rounds(draft, n_nodes, rounds, note):
 
 
 def polish(draft, note):
-    """Move all nodes a few times."""
+    """Move all nodes a few times, as long as it is worth it."""
     for _ in range(LAST_MOVES):
+        before = draft.errors.sum()
         improved(draft)
         note("moved")
+        if draft.errors.sum() > (1 - STILL) * before:
+            break
 
 
 def _sizes(draft, n_nodes):
