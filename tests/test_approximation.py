@@ -272,6 +272,14 @@ def test_the_error_is_confirmed_by_another_quadrature(function):
     assert found.history["step"][-1] == "measured"
 
 
+def test_a_lattice_with_smaller_angles_than_allowed_is_not_taken():
+    """Of cells twice as high as wide it would have angles of 26.6 degrees."""
+    assert regular(((0, 0), (1, 4)), 6).counts == (6, 9, 4)
+    found = approximate(lambda x, y: 4 * x * x - y * y, 6, ((0, 0), (1, 4)), min_angle=30)
+    assert "compared" not in found.history["step"]
+    assert "compared" in approximate(lambda x, y: 4 * x * x - y * y, 6, ((0, 0), (1, 4))).history["step"]
+
+
 def test_a_lattice_fits_its_rectangle():
     assert regular(((0, 0), (4, 1)), 100).counts[0] == 100
     assert regular(((0, 0), (1, 4)), 7).counts[0] == 6

@@ -45,19 +45,19 @@ def strategy(draft, n_nodes, note, regular=None):
         note("grown")
         improved(draft)
         note("moved")
-        if size < n_nodes or not is_instead(draft, regular, n_nodes, CLEARLY, note):
+        if size < n_nodes or not regular_taken(draft, regular, n_nodes, CLEARLY, note):
             in_rounds(draft, size, rounds, note)
     polish(draft, note)
     if draft.norm == "max":
         draft.measure(SQUARINGS)
         in_rounds(draft, n_nodes, LEVELLINGS, note)
-        if is_instead(draft, regular, n_nodes, 1, note):
+        if regular_taken(draft, regular, n_nodes, 1, note):
             polish(draft, note)
 
 
-def is_instead(draft, regular, n_nodes, share, note):
+def regular_taken(draft, regular, n_nodes, share, note):
     """Take a regular mesh if that lowers the objective to such a share or less; returns whether."""
-    if regular is None:
+    if regular is None or not draft.misfit.is_allowed(regular.corners).all():
         return False
     best, before = Best(draft), draft.objective
     best.offer()
