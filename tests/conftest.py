@@ -51,6 +51,17 @@ def site():
     return SITE
 
 
+@pytest.fixture(scope="module", params=["server", "disk"])
+def address(request, site):
+    """Where the site is, on a server of this machine or in a folder."""
+    from visiting import served  # beside the tests in a browser, which alone need it
+    if request.param == "disk":
+        yield site.as_uri()
+    else:
+        with served(site) as found:
+            yield found
+
+
 @pytest.fixture(scope="session")
 def chromium():
     """A browser without a window, that of MESHLIB_BROWSER or the first one found."""

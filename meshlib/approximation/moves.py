@@ -68,7 +68,7 @@ class _Sweep:
         slope, curvature = patches.model(frames)
         length = _downhill(slope, curvature)
         gain = -(slope * length).sum(axis=1) / 2
-        return _without_noise(np.einsum("nk,nkc->nc", length, frames), frames), gain
+        return _on_grid(np.einsum("nk,nkc->nc", length, frames), frames), gain
 
     def _try(self, nodes, step):
         """Move nodes by a step where the error falls; returns where it did."""
@@ -85,7 +85,7 @@ class _Sweep:
         return better
 
 
-def _without_noise(steps, frames):
+def _on_grid(steps, frames):
     """Steps rounded to multiples of powers of two, so that rounding leaves no trace in the mesh."""
     extent = np.hypot(frames[..., 0], frames[..., 1]).min(axis=1)
     grid = FINEST * 2.0 ** np.round(np.log2(np.where(extent > 0, extent, 1)))[:, None]

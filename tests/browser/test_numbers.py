@@ -5,8 +5,7 @@ import statistics
 
 import numpy as np
 import pytest
-from visiting import (PLACES, READY_SECONDS, assert_numbers, pages_of, served, shown, skip_unless_timed,
-                      visited)
+from visiting import PLACES, READY_SECONDS, assert_numbers, pages_of, shown, skip_unless_timed, visited
 
 from meshlib.thesis import explorers
 
@@ -77,16 +76,6 @@ def test_a_change_is_drawn_within_a_frame(chromium, site, quiet, name):
         times = explorer.evaluate(TIMED)
     assert statistics.median(times) <= FRAME, times
     assert max(times) <= WORST, times
-
-
-@pytest.fixture(scope="module", params=["file", "server"])
-def address(site, request):
-    """Of the site, on the disk and on a server of this machine."""
-    if request.param == "file":
-        yield site.as_uri()
-    else:
-        with served(site) as address:
-            yield address
 
 
 @pytest.mark.parametrize("name", PLACES)

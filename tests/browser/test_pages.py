@@ -1,21 +1,11 @@
 """Every page of the built book in a real browser, from a server and from the disk."""
 import pytest
 from conftest import SITE
-from visiting import explorers_of, pages_of, served, watched
+from visiting import explorers_of, pages_of, watched
 
 PAGES = pages_of(SITE)
 EXPLORERS = {"notebooks/03-methods.html": 1, "notebooks/05-results.html": 2,
              "notebooks/06-modifications.html": 2, "notebooks/07-further-work.html": 1}
-
-
-@pytest.fixture(scope="module", params=["server", "disk"])
-def address(request, site):
-    """Where the site is, on a server of this machine or in a folder."""
-    if request.param == "disk":
-        yield site.as_uri()
-    else:
-        with served(site) as found:
-            yield found
 
 
 @pytest.mark.parametrize("name", PAGES)
