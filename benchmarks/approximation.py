@@ -10,9 +10,9 @@ import time
 import numpy as np
 
 from meshlib import MeshError, approximate, problems
-from meshlib.interpolant import squared_errors
-from meshlib.thesis import limit
-from meshlib.thesis.studies import quartered
+from meshlib.interpolation.interpolant import squared_errors
+from meshlib.thesis.studies import section_7_7a_limit as limit
+from meshlib.thesis.studies.appendix_b import quartered
 from remeshing import STEP, delatin, mmg2d
 
 SEEDS = range(3)

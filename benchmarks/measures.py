@@ -8,7 +8,7 @@ from importlib.util import find_spec
 import numpy as np
 
 import meshlib as ml
-from meshlib.renumbering import along_curve
+from meshlib.swapping.along_curve import along_curve
 
 GRID = 1000
 SHARE = 0.1

@@ -2,7 +2,7 @@
 import numpy as np
 
 from meshlib import Mesh
-from meshlib.thesis.limit import hessians, lattice
+from meshlib.thesis.studies.section_7_7a_limit import hessians, lattice
 
 PASSES = 10  # of remeshing, each on the mesh of the one before
 STEP = 1e-4  # of differences for second derivatives

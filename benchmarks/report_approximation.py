@@ -2,8 +2,8 @@
 from statistics import median
 
 from meshlib import plotting
-from meshlib.thesis.limit import ZIGZAG
-from meshlib.thesis.tables import grid, markdown
+from meshlib.thesis.studies.section_7_7a_limit import ZIGZAG
+from meshlib.thesis.tables.numbered import grid, markdown
 from report import results, sentence, verdict
 
 RATES = {"B": 1, "K": 2}  # of the error in the number of nodes, by the constant of a function

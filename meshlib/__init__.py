@@ -1,19 +1,19 @@
 """Data-dependent triangulation: nodal values in, a better triangulation out."""
 from . import criteria, curves, problems
-from .annealing import annealed
-from .approximation import approximate
-from .combined import combined
-from .delaunay import delaunay
+from .swapping.annealing import annealed
+from .approximation.approximate import approximate
+from .combination.combined import combined
+from .mesh.delaunay import delaunay
 from .errors import Interrupted, MeshError
-from .interpolant import Interpolant
-from .mesh import Mesh
-from .movement import smoothed
-from .optima import local_optima
-from .optimal import optimal
-from .quality import quality, uniformity, valence
-from .refinement import refined
-from .springs import DataSprings
-from .swapping import swapped
+from .interpolation.interpolant import Interpolant
+from .mesh.mesh import Mesh
+from .movement.smoothed import smoothed
+from .optima.many_orders import local_optima
+from .optima.proved import optimal
+from .mesh.quality import quality, uniformity, valence
+from .refinement.refined import refined
+from .movement.springs import DataSprings
+from .swapping.swapped import swapped
 
 __version__ = "0.1.0"
 DISTRIBUTION = "data-dependent-mesh"

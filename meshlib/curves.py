@@ -14,10 +14,10 @@ returns goes, with the curve, into `deviation` and `domain_mesh`.
 import numpy as np
 
 from . import checks
-from .delaunay import delaunay
+from .mesh.delaunay import delaunay
 from .errors import MeshError
-from .mesh import Mesh
-from .polygons import inside, lattice_inside
+from .mesh.mesh import Mesh
+from .geometry.polygons import inside, lattice_inside
 
 DENSITIES = ("curvature", "length", "parameter")
 SAMPLES = 4096  # of the curve, along which the density is integrated

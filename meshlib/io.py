@@ -3,7 +3,7 @@ import numpy as np
 
 from . import checks
 from .errors import MeshError, missing_extra
-from .mesh import Mesh
+from .mesh.mesh import Mesh
 
 
 def write(path, mesh, values=None):

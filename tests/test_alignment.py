@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from meshlib import MeshError, problems
-from meshlib.thesis import alignment
+from meshlib.thesis.studies import section_7_3_alignment as alignment
 
 
 def test_the_ramp_is_that_of_the_thesis():

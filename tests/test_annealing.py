@@ -5,10 +5,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import Mesh, MeshError, annealed, criteria, delaunay, optimal, problems, swapped
-from meshlib.draws import Draws
-from meshlib.swapping import prepared
-from meshlib.thesis import beyond
-from meshlib.walking import _Compiled, _Plain, walk_from
+from meshlib.support.random_numbers import Draws
+from meshlib.swapping.swapped import prepared
+from meshlib.thesis.studies import section_7_6_beyond as beyond
+from meshlib.swapping.walk import _Compiled, _Plain, walk_from
 from strategies import problems_of
 from support import as_set, shuffled
 

@@ -11,19 +11,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems, refined
-from meshlib.approximation import samples, sizes, strategy
+from meshlib.approximation import samples, node_count, strategy
 from meshlib.approximation.division import bisect, divide
-from meshlib.approximation.draft import Draft
-from meshlib.approximation.misfit import Misfit, half_slopes, powers, rule
+from meshlib.approximation.working_mesh import Draft
+from meshlib.approximation.error_integrals import Misfit, half_slopes, powers, rule
 from meshlib.approximation.moves import _Sweep, move
 from meshlib.approximation.patches import _curvature
-from meshlib.approximation.ridges import in_turn
-from meshlib.approximation.starts import regular
+from meshlib.approximation.one_direction import in_turn
+from meshlib.approximation.start_mesh import regular
 from meshlib.approximation.swaps import swap
-from meshlib.choice import independent
-from meshlib.quality import angles
-from meshlib.sides import CORNER, INTERIOR, sides_of
-from meshlib.thesis.studies import settled_error
+from meshlib.support.independent import independent
+from meshlib.mesh.quality import angles
+from meshlib.mesh.boundary_sides import CORNER, INTERIOR, sides_of
+from meshlib.thesis.studies.appendix_b import settled_error
 from support import lattice
 
 FRANKE = problems.functions["franke"]
@@ -381,7 +381,7 @@ def test_an_interrupt_keeps_the_mesh(monkeypatch):
     def report(watch, done):
         if done == 3:
             signal.raise_signal(signal.SIGINT)
-    monkeypatch.setattr("meshlib.watching.Watch.report", report)
+    monkeypatch.setattr("meshlib.support.progress.Watch.report", report)
     with pytest.raises(Interrupted) as stop:
         approximate(front, 100)
     found = stop.value.result
@@ -408,13 +408,13 @@ def test_the_least_number_is_found_whatever_the_order_of_convergence(order, enou
     def trial(nodes):
         tried.append(nodes)
         return SimpleNamespace(nodes=nodes, error=nodes ** -order)
-    found = sizes.least(trial, enough ** -order * (1 + 1e-12), 4, 200_000)
+    found = node_count.least(trial, enough ** -order * (1 + 1e-12), 4, 200_000)
     assert enough <= found.nodes <= max(enough, 1.02 * enough)
     assert len(tried) <= 15
 
 
 def test_a_tolerance_out_of_reach_is_told():
-    assert sizes.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, 1000) is None
+    assert node_count.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, 1000) is None
 
 
 def test_samples_on_a_grid_are_bilinear_between():

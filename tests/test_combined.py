@@ -7,10 +7,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import Interpolant, Mesh, MeshError, combined, criteria, delaunay, problems, refined, swapped
-from meshlib import procedure as procedures
-from meshlib.combined import LEAST_GAIN, _objective, _Run
+from meshlib.swapping import procedure as procedures
+from meshlib.combination.combined import LEAST_GAIN, _objective, _Run
 from meshlib.kernels import COMPILED, INTERPRETED
-from meshlib.quality import angles
+from meshlib.mesh.quality import angles
 from strategies import meshes
 
 PLACES = {"edge": "jnd", "element": None, "node": "gradient-spread"}  # None: the L2 error

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems
-from meshlib.norms import NORMS, measure, norm_of, precedes
+from meshlib.criteria.norms import NORMS, measure, norm_of, precedes
 
 BUILT_IN = ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle", "gradient-spread")
 MOTIONS = {"shift": (np.eye(2), (3, -7)), "turn": (np.array([[0.6, 0.8], [-0.8, 0.6]]), (0, 0)),

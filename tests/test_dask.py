@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from meshlib import local_optima, problems
-from meshlib.optima import shared
+from meshlib.optima.many_orders import shared
 
 distributed = pytest.importorskip("distributed")
 

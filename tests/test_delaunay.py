@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 
 from meshlib import Mesh, delaunay, problems
-from meshlib.quality import angles
+from meshlib.mesh.quality import angles
 from strategies import lattice_nodes
 from support import all_meshes, as_set, exact_circle, hull_area, is_delaunay, lattice, polygon, shuffled
 
@@ -153,8 +153,8 @@ def _is_tied(mesh, e):
 @pytest.mark.parametrize("nodes", [lattice(2, 2), polygon(7), lattice(5, 1)])
 def test_delaunay_does_not_depend_on_where_flips_start(nodes, rng):
     """Flipping a shuffled mesh to Delaunay gives the mesh that Qhull starts from."""
-    from meshlib.delaunay import _flipped_to_delaunay
-    from meshlib.topology import canonical
+    from meshlib.mesh.delaunay import _flipped_to_delaunay
+    from meshlib.mesh.topology import canonical
     expected = delaunay(nodes).elements
     for _ in range(5):
         start = shuffled(delaunay(nodes), rng)

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshlib.draws import Draws
+from meshlib.support.random_numbers import Draws
 
 # The first 64 random bits of PCG64(1), and the 53 uppermost of them divided by 2^53.
 RAW = [9441442522235856127, 17532960557476522086, 2659275481604167885]

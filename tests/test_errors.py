@@ -2,8 +2,19 @@
 import numpy as np
 import pytest
 
-from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, quality, refined, smoothed, swapped
-from meshlib.marking import marked
+from meshlib import (
+    Interpolant,
+    Mesh,
+    MeshError,
+    criteria,
+    delaunay,
+    problems,
+    quality,
+    refined,
+    smoothed,
+    swapped,
+)
+from meshlib.refinement.marking import marked
 from support import lattice
 
 NAN, INF = float("nan"), float("inf")

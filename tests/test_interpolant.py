@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given, settings
 from scipy.interpolate import LinearNDInterpolator
 
-from meshlib import Interpolant, Mesh, MeshError, delaunay, problems, quadrature
+from meshlib import delaunay, Interpolant, Mesh, MeshError, problems
+from meshlib.geometry import quadrature
 from strategies import problems_of
 from support import lattice
 
@@ -151,7 +152,7 @@ def test_quadrature_is_exact_to_its_degree(degree):
 @pytest.mark.parametrize("points", [1, 100, 26 * 25])
 def test_batches_do_not_matter(points, monkeypatch):
     """An element has 25 points of degree 8: one, four and 26 elements at once."""
-    from meshlib import interpolant
+    from meshlib.interpolation import interpolant
     u = problems.functions["franke"]
     u_h = Interpolant(problems.mesh("81"), u)
     expected = u_h.squared_errors(u)

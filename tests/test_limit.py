@@ -4,7 +4,7 @@ import pytest
 from scipy.integrate import quad
 
 from meshlib import Interpolant, Mesh, delaunay, problems
-from meshlib.thesis import conditioning, limit
+from meshlib.thesis.studies import section_7_7b_conditioning as conditioning, section_7_7a_limit as limit
 from support import lattice
 
 F = problems.functions
@@ -111,7 +111,7 @@ def test_scaling_the_domain_changes_no_condition_number():
 
 def test_thin_elements_spoil_the_condition():
     """The 33 nodes of the thesis, Delaunay and swapped for SR1: eight times worse."""
-    from meshlib.thesis.experiments import run
+    from meshlib.thesis.studies.experiments import run
     start, swapped = (conditioning.conditions(run(key).mesh)[0] for key in ("start-33", "SR1-33-ABN-L1"))
     assert start == pytest.approx(13.3, abs=0.05) and swapped == pytest.approx(108.6, abs=0.05)
 

@@ -6,7 +6,8 @@ import pickle
 import numpy as np
 import pytest
 
-from meshlib import Mesh, MeshError, delaunay, topology
+from meshlib import delaunay, Mesh, MeshError
+from meshlib.mesh import topology
 from support import lattice
 
 DERIVED = ("edges", "element_edges", "edge_elements", "neighbours", "boundary",

@@ -5,9 +5,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, swapped
-from meshlib.enumeration import enumerated
-from meshlib.optima import local_optima, order_of
-from meshlib.optimal import optimal
+from meshlib.optima.enumeration import enumerated
+from meshlib.optima.many_orders import local_optima, order_of
+from meshlib.optima.proved import optimal
 from strategies import problems_of
 from support import all_meshes, as_set, lattice, polygon, shuffled
 
@@ -166,8 +166,8 @@ def test_even_a_few_orders_are_shared_out(square, orders, most, parts, monkeypat
         sizes.extend(len(numbers) for *_, numbers in parts)
         assert total == len(parts)
         return [function(*part) for part in parts]
-    monkeypatch.setattr("meshlib.optima.shared", shared)
-    monkeypatch.setattr("meshlib.optima.ORDERS_AT_ONCE", most)
+    monkeypatch.setattr("meshlib.optima.many_orders.shared", shared)
+    monkeypatch.setattr("meshlib.optima.many_orders.ORDERS_AT_ONCE", most)
     local_optima(square, [0, 0, 1, 0], orders=orders)
     assert (len(sizes), sum(sizes)) == (parts, orders)
 

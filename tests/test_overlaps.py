@@ -4,9 +4,10 @@ import pytest
 from hypothesis import assume, given, reject, settings
 from hypothesis import strategies as st
 
-from meshlib import Mesh, MeshError, boxes, delaunay, overlaps, validation
-from meshlib.predicates import orientation
-from meshlib.topology import HEADS, TAILS
+from meshlib import delaunay, Mesh, MeshError
+from meshlib.mesh import box_tree, overlaps, validation
+from meshlib.geometry.predicates import orientation
+from meshlib.mesh.topology import HEADS, TAILS
 from strategies import WIDTH, lattice_nodes
 from support import lattice
 
@@ -171,8 +172,8 @@ def test_batches_of_any_size_give_the_same(few, most, monkeypatch):
     hanging = Mesh([[2, -1], [4, -1], [3.5, 0]], [[0, 1, 2]])
     broken = [united(mesh, extra, shift) for extra in (small, hanging) for shift in ((0, 0), (3, 0))]
     expected = [verdict(wrong) for wrong in broken]
-    monkeypatch.setattr(boxes, "FEW_ROWS", few)
-    monkeypatch.setattr(boxes, "PAIRS_AT_ONCE", most)
+    monkeypatch.setattr(box_tree, "FEW_ROWS", few)
+    monkeypatch.setattr(box_tree, "PAIRS_AT_ONCE", most)
     mesh.validate()
     assert expected == [verdict(wrong) for wrong in broken]
     assert {clause for clause, _ in expected} == {"overlap", "hanging node"}
@@ -190,8 +191,8 @@ def test_any_unit_of_length_will_do(scale, square):
        st.lists(st.tuples(CELLS, CELLS), min_size=1, max_size=60))
 def test_boxes_that_touch(first, second):
     """In each axis neither ends before the other begins."""
-    (low, high), others = (boxes.bounds(*np.swapaxes(s, 0, 1).astype(float)) for s in (first, second))
-    batches = boxes.BoxTree(*others).touching(low, high)
+    (low, high), others = (box_tree.bounds(*np.swapaxes(s, 0, 1).astype(float)) for s in (first, second))
+    batches = box_tree.BoxTree(*others).touching(low, high)
     found = [pair for i, j in batches for pair in zip(i.tolist(), j.tolist(), strict=True)]
     expected = np.argwhere((low[:, None] <= others[1]).all(axis=2) & (others[0] <= high[:, None]).all(axis=2))
     assert sorted(found) == list(map(tuple, expected.tolist()))
@@ -205,5 +206,5 @@ def test_work_is_in_proportion_to_the_number_of_elements(nodes, elements):
     """Of half a million pairs some thousands are looked at."""
     mesh = delaunay(nodes) if elements is None else Mesh(nodes, elements)
     all_, edges = overlaps._Elements(mesh.corners), mesh.nodes[mesh.edges[mesh.boundary].T]
-    near = all_.near(np.arange(mesh.n_elements), boxes.BoxTree(*boxes.bounds(*edges)))
+    near = all_.near(np.arange(mesh.n_elements), box_tree.BoxTree(*box_tree.bounds(*edges)))
     assert sum(len(t) for t, _ in near) < 8 * mesh.n_elements

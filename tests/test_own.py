@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, swapped
 from meshlib.kernels.backend import NAME
-from meshlib.topology import from_smallest
+from meshlib.mesh.topology import from_smallest
 from strategies import problems_of
 from support import lattice, shuffled
 

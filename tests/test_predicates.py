@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 import shewchuk
 
-from meshlib.predicates import incircle, orientation
+from meshlib.geometry.predicates import incircle, orientation
 from support import exact_circle, exact_turn
 
 ULP = 2.0 ** -53  # spacing of the doubles just below 1

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from meshlib import Mesh, problems
-from meshlib.problems import split_in_four
+from meshlib.problems.start_meshes import split_in_four
 from support import is_delaunay
 
 FUNCTIONS = ("SR1", "SR2", "SR3", "DD1", "franke", "cliff", "saddle", "gentle", "steep", "sphere",

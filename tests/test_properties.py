@@ -4,9 +4,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import Interpolant, Mesh, criteria, delaunay, quality, refined, smoothed, swapped
-from meshlib.marking import MARKS
-from meshlib.norms import NORMS
-from meshlib.splitting import SPLITS
+from meshlib.refinement.marking import MARKS
+from meshlib.criteria.norms import NORMS
+from meshlib.refinement.splitting import SPLITS
 from strategies import lattice_nodes, meshes, problems_of
 from support import as_set, exact_turn
 

@@ -6,8 +6,19 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from meshlib import Mesh, MeshError, delaunay, problems, quality, refined, smoothed, swapped, uniformity, valence
-from meshlib.quality import angles
+from meshlib import (
+    Mesh,
+    MeshError,
+    delaunay,
+    problems,
+    quality,
+    refined,
+    smoothed,
+    swapped,
+    uniformity,
+    valence,
+)
+from meshlib.mesh.quality import angles
 from strategies import meshes
 from support import lattice
 
@@ -72,7 +83,7 @@ def test_size_place_and_turn_do_not_matter(scale, rng):
 def test_batches_do_not_matter(rng, monkeypatch):
     mesh = delaunay(rng.random((50, 2)))
     expected = dataclasses.astuple(quality(mesh))
-    monkeypatch.setattr(sys.modules["meshlib.quality"], "AT_ONCE", 7)
+    monkeypatch.setattr(sys.modules["meshlib.mesh.quality"], "AT_ONCE", 7)
     assert np.array_equal(dataclasses.astuple(quality(mesh)), expected)
 
 

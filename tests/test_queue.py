@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from meshlib import MeshError, criteria, delaunay, problems, swapped
 from meshlib.kernels import for_work
-from meshlib.renumbering import along_curve
-from meshlib.topology import MANY, edge_table, half_edges
+from meshlib.swapping.along_curve import along_curve
+from meshlib.mesh.topology import MANY, edge_table, half_edges
 from strategies import meshes, problems_of
 from support import as_set, is_delaunay, shuffled
 
@@ -107,9 +107,9 @@ def test_edges_by_counting_are_those_by_sorting(hole, rng, monkeypatch):
     mesh = delaunay(rng.random((MANY // 2 + 200, 2)))
     elements = mesh.elements[mesh.nodes[mesh.elements].mean(axis=1)[:, 0] > 0.01] if hole else mesh.elements
     assert len(elements) >= MANY
-    monkeypatch.setattr("meshlib.topology._kernels_are_compiled", lambda: True)
+    monkeypatch.setattr("meshlib.mesh.topology._kernels_are_compiled", lambda: True)
     counted = edge_table(elements, mesh.n_nodes)
-    monkeypatch.setattr("meshlib.topology.MANY", np.inf)
+    monkeypatch.setattr("meshlib.mesh.topology.MANY", np.inf)
     for ours, theirs in zip(counted, edge_table(elements, mesh.n_nodes), strict=True):
         assert np.array_equal(ours, theirs) and ours.dtype == theirs.dtype
 

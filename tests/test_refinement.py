@@ -7,9 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, refined
-from meshlib.marking import MARKS, TIES, averaged, marked
-from meshlib.quality import angles
-from meshlib.splitting import SPLITS
+from meshlib.refinement.marking import MARKS, TIES, averaged, marked
+from meshlib.mesh.quality import angles
+from meshlib.refinement.splitting import SPLITS
 from strategies import problems_of
 from support import as_set, lattice
 
@@ -20,7 +20,7 @@ def smallest_angle(mesh):
 
 def at(mesh, x, y):
     """A criterion that marks the element at a point, and nothing else."""
-    from meshlib.location import located
+    from meshlib.interpolation.locate_by_buckets import located
     here = located(mesh, np.array([[x, y]]))[0]
     return criteria.Criterion("here", "element", lambda a, b, c: (np.arange(mesh.n_elements) == here) * 1.0)
 

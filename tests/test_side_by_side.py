@@ -3,11 +3,15 @@ import numpy as np
 import pytest
 
 from meshlib import Interpolant, combined, delaunay, problems, refined
-from meshlib.marking import MARKS
-from meshlib.quality import angles
-from meshlib.splitting import SPLITS
-from meshlib.thesis import boundaries, combining, splittings
-from meshlib.thesis.splittings import AIM, MOST_NODES, Rounds, rounds
+from meshlib.refinement.marking import MARKS
+from meshlib.mesh.quality import angles
+from meshlib.refinement.splitting import SPLITS
+from meshlib.thesis.studies import (
+    section_7_2_boundaries as boundaries,
+    section_7_5_combining as combining,
+    section_7_1_splittings as splittings,
+)
+from meshlib.thesis.studies.section_7_1_splittings import AIM, MOST_NODES, Rounds, rounds
 
 
 def rows(table):

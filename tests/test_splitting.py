@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import Mesh, criteria, delaunay, problems, refined
-from meshlib.marking import MARKS, TIED, TIES, averaged, marked
-from meshlib.topology import grouped, unique
+from meshlib.refinement.marking import MARKS, TIED, TIES, averaged, marked
+from meshlib.mesh.topology import grouped, unique
 from strategies import problems_of
 from support import lattice
 

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import DataSprings, Interpolant, MeshError, delaunay, problems, smoothed, swapped
-from meshlib.sides import CORNER, sides_of
+from meshlib.mesh.boundary_sides import CORNER, sides_of
 from support import lattice
 
 

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshlib import Mesh, criteria, delaunay, problems, swapped
-from meshlib.norms import NORMS, measure
-from meshlib.quality import angles
+from meshlib.criteria.norms import NORMS, measure
+from meshlib.mesh.quality import angles
 from strategies import problems_of
 from support import as_set, is_delaunay, lattice, shuffled
 

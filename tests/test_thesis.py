@@ -10,7 +10,10 @@ import pytest
 
 import meshlib as ml
 from meshlib import problems
-from meshlib.thesis import certificates, experiments, hunt, printed, scoreboard, search, studies
+from meshlib.thesis import scoreboard
+from meshlib.thesis.record import certificates, printed
+from meshlib.thesis.search import command as search, walk
+from meshlib.thesis.studies import appendix_b as studies, experiments
 
 CERTIFIED = {  # certificate: the criterion of the caption
     "SR2-81-JND-L2": ("jnd", 2), "SR3-81-JND-L2": ("jnd", 2),
@@ -122,7 +125,7 @@ def test_the_search_finds_the_stored_certificate_again(arguments, key, tmp_path,
 
 def test_a_search_goes_on_where_it_stopped(tmp_path, monkeypatch):
     """With walks of ten steps the first tasks fail."""
-    monkeypatch.setattr(hunt, "STEPS", 10)
+    monkeypatch.setattr(walk, "STEPS", 10)
     arguments = {"workers": 1, "folder": tmp_path, "progress": False}
     assert search.search("SR1-33-ABN-L2", "command", tasks=2, **arguments) is None
     log = tmp_path / "SR1-33-ABN-L2.seed-1.search.json"
@@ -133,7 +136,7 @@ def test_a_search_goes_on_where_it_stopped(tmp_path, monkeypatch):
     assert done == [(1, 2), (1, 3), (1, 4)]
     assert search.search("SR1-33-ABN-L2", "command", seed=2, tasks=1, **arguments) is None
     assert done[3:] == [(2, 0)]
-    monkeypatch.setattr(hunt, "STEPS", 20)  # another way to search begins anew
+    monkeypatch.setattr(walk, "STEPS", 20)  # another way to search begins anew
     assert search.search("SR1-33-ABN-L2", "command", tasks=1, **arguments) is None
     assert done[4:] == [(1, 0)]
 

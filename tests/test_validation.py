@@ -2,7 +2,8 @@
 import numpy as np
 import pytest
 
-from meshlib import Mesh, MeshError, validation
+from meshlib import Mesh, MeshError
+from meshlib.mesh import validation
 
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
 

@@ -5,9 +5,9 @@ import threading
 import numpy as np
 import pytest
 
-import meshlib.watching
+import meshlib.support.progress
 from meshlib import Interrupted, delaunay, problems, swapped
-from meshlib.watching import Watch
+from meshlib.support.progress import Watch
 
 
 @pytest.fixture
@@ -71,7 +71,7 @@ def test_the_bar_ends_at_the_number_of_edges_or_before(start, schedule, monkeypa
 
         def close(self):
             self.closed = True
-    monkeypatch.setattr(meshlib.watching, "bar", Bar)
+    monkeypatch.setattr(meshlib.support.progress, "bar", Bar)
     monkeypatch.setattr(Watch, "part", 100)
     swapped(start, problems.functions["franke"], schedule=schedule, progress=True)
     bar, = Bar.made

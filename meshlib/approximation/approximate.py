@@ -6,16 +6,16 @@ import numpy as np
 
 from .. import checks
 from ..errors import Interrupted, MeshError
-from ..interpolant import Interpolant
-from ..mesh import Mesh
-from ..sides import sides_of
-from ..watching import Watch
-from .draft import Draft
-from .misfit import Misfit
-from .ridges import in_turn
+from ..interpolation.interpolant import Interpolant
+from ..mesh.mesh import Mesh
+from ..mesh.boundary_sides import sides_of
+from ..support.progress import Watch
+from .working_mesh import Draft
+from .error_integrals import Misfit
+from .one_direction import in_turn
 from .samples import Samples
-from .sizes import least
-from .starts import corners, fit, regular, start
+from .node_count import least
+from .start_mesh import corners, fit, regular, start
 from .strategy import LAST_MOVES, SQUARINGS, polish, steps, strategy
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))

@@ -1,8 +1,8 @@
 r"""Nodes taken out again where they serve least, and nodes put on the boundary that all but lie on it."""
 import numpy as np
 
-from ..choice import coarse, independent
-from ..sides import CORNER, INTERIOR
+from ..support.independent import coarse, independent
+from ..mesh.boundary_sides import CORNER, INTERIOR
 
 LOOKED_AT = 3  # nodes for each that is to be taken out
 FEWEST = 40  # nodes looked at in any case

@@ -1,8 +1,8 @@
 """Elements divided into four: what is well arranged stays so at half the size."""
 import numpy as np
 
-from ..sides import INTERIOR
-from ..splitting import SPLITS
+from ..mesh.boundary_sides import INTERIOR
+from ..refinement.splitting import SPLITS
 
 WORTH = 0.1  # of the mean error of an element, from which on it is divided
 ALONE = 50  # elements that are tried one by one

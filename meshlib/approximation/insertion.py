@@ -13,10 +13,10 @@ them::
 """
 import numpy as np
 
-from ..choice import coarse, independent
-from ..sides import INTERIOR
-from ..topology import TAILS
-from .draft import WORST
+from ..support.independent import coarse, independent
+from ..mesh.boundary_sides import INTERIOR
+from ..mesh.topology import TAILS
+from .working_mesh import WORST
 
 LEAST = 1e-9  # of the same, at which nothing is left that could be split
 CANDIDATES = 2  # elements looked at for each node to be inserted

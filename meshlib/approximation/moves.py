@@ -2,7 +2,7 @@
 import numpy as np
 
 from ..kernels import for_work
-from ..sides import CORNER
+from ..mesh.boundary_sides import CORNER
 from .patches import Patches
 
 REACH = 0.35  # of the extent of a patch: how far a node may go at once

@@ -12,7 +12,7 @@ All is written in the frame of a patch, two directions in which it is round.
 """
 import numpy as np
 
-from ..sides import INTERIOR
+from ..mesh.boundary_sides import INTERIOR
 from .collapse import beside
 
 PROBE = 0.08  # of the extent of a patch, at which differences of the function are taken

@@ -7,7 +7,7 @@ import numpy as np
 
 from .collapse import collapse, settle_on_boundary
 from .division import bisect, divide
-from .draft import Best
+from .working_mesh import Best
 from .insertion import insert
 from .moves import move
 from .swaps import swap

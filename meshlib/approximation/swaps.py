@@ -1,8 +1,8 @@
 """Swaps that lower the error, many at a time."""
 import numpy as np
 
-from ..choice import coarse, independent
-from ..topology import quadrilaterals
+from ..support.independent import coarse, independent
+from ..mesh.topology import quadrilaterals
 
 GAIN = 1e-9  # of the error of two elements, below which they stay
 

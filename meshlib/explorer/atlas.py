@@ -7,7 +7,7 @@ import json
 
 import numpy as np
 
-from ..criteria import get
+from ..criteria.registry import get
 from .scene import truth
 
 ALIGNED = 8  # bytes, the size of the largest item

@@ -5,9 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ..interpolant import Interpolant
-from ..mesh import Mesh
-from ..quality import MEASURES, Quality, quality
+from ..interpolation.interpolant import Interpolant
+from ..mesh.mesh import Mesh
+from ..mesh.quality import MEASURES, Quality, quality
 
 GRID = 101  # points along each side, for errors as the thesis measures them
 UNITS = {"maximum_angle": " (°)"}
@@ -27,7 +27,7 @@ class Scene:
     film : tuple of Mesh
         The meshes after the start, at least one; the last is the adapted mesh.
     trace : structured array
-        Tried swaps as in `meshlib.swapping.Swapping.trace`, which lead from the start to
+        Tried swaps as in `meshlib.swapping.swapped.Swapping.trace`, which lead from the start to
         the only mesh of the film; then each try is a frame.
     swaps : int
     cost : str

@@ -27,7 +27,7 @@ class _Kernels:
 
 
 COMPILED = _Kernels("meshlib.kernels")  # by numba, unless it is missing or not wanted
-INTERPRETED = _Kernels("meshlib.interpreted")
+INTERPRETED = _Kernels("meshlib.kernels.interpreted")
 
 
 def for_work(steps):

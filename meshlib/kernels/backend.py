@@ -7,11 +7,11 @@ arrays, plain Python runs them on lists, which it indexes several times faster t
 """
 import os
 
-from ..checks import choice
-from ..errors import missing_extra
+from meshlib.checks import choice
+from meshlib.errors import missing_extra
 
 BACKENDS = ("auto", "numba", "python")
-COMPILING = "meshlib.kernels"  # the package; its twin is `meshlib.interpreted`
+COMPILING = "meshlib.kernels"  # the package; its twin is `meshlib.kernels.interpreted`
 
 
 def _chosen():

@@ -12,7 +12,7 @@ So crowded places have narrow strips, and an element finds its points by bisecti
 from math import inf
 
 from .backend import compiled
-from .shapes import INSIDE, MOVED, is_flat, plane
+from .element_shapes import INSIDE, MOVED, is_flat, plane
 
 SPAN = 1e-9  # of its extent, by which an element is looked for beyond its bounding box
 NARROW = 3  # strips up to which an element is looked for between the same heights in each

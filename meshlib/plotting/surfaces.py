@@ -4,8 +4,8 @@ from functools import lru_cache
 import numpy as np
 
 from .. import problems
-from ..interpolant import Interpolant
-from ..refinement import refined
+from ..interpolation.interpolant import Interpolant
+from ..refinement.refined import refined
 from .look import BRIGHTEST, EDGE_WIDTH, FAINT, INK, VALUES, bare, framed, pyplot, round_ticks
 from .meshes import draw_edges, plot_mesh
 

@@ -2,15 +2,15 @@
 import numpy as np
 
 from .. import criteria, problems
-from ..approximation import approximate
+from ..approximation.approximate import approximate
 from ..explorer import Exploration, Explorer, Scene, menu, slider
-from ..marking import MARKS
-from ..movement import smoothed
-from ..refinement import refined
-from ..splitting import SPLITS
-from ..springs import DataSprings
-from ..swapping import swapped
-from .limit import lattice
+from ..refinement.marking import MARKS
+from ..movement.smoothed import smoothed
+from ..refinement.refined import refined
+from ..refinement.splitting import SPLITS
+from ..movement.springs import DataSprings
+from ..swapping.swapped import swapped
+from .studies.section_7_7a_limit import lattice
 
 NORM_NAMES = {1: "L1", 2: "L2", "max": "max", "lexicographic": "lexicographic"}
 THESIS = "SR1", "SR2", "SR3", "DD1"

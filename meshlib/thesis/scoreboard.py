@@ -4,9 +4,10 @@ from collections import Counter
 from dataclasses import asdict, dataclass
 from importlib.resources import files
 
-from . import certificates, experiments, printed
+from .record import certificates, printed
+from .studies import experiments
 
-RECORD = files(__package__) / "verdicts.json"
+RECORD = files(__package__) / "record" / "verdicts.json"
 VERDICTS = ("exact", "reachable", "misprint", "open")
 
 

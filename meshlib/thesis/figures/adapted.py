@@ -2,7 +2,7 @@
 import numpy as np
 
 from ... import plotting
-from ..experiments import run
+from ..studies.experiments import run
 
 DOUBLE = plotting.WIDTH / 2  # inches, of each of two panels
 HEAVY, DOT = 1.6, 4.0  # points, of what is set off

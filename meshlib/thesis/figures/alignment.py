@@ -2,8 +2,8 @@
 import numpy as np
 
 from ... import plotting
-from ...interpolant import Interpolant
-from .. import alignment
+from ...interpolation.interpolant import Interpolant
+from ..studies import section_7_3_alignment as alignment
 
 __all__ = ["aligned_meshes", "jitter", "repaired", "repaired_mesh", "turned"]
 

@@ -2,8 +2,8 @@
 import numpy as np
 
 from ... import plotting, problems
-from ...interpolant import Interpolant
-from .. import beyond
+from ...interpolation.interpolant import Interpolant
+from ..studies import section_7_6_beyond as beyond
 
 __all__ = ["annealed", "distances", "every_cost"]
 

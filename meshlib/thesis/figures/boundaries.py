@@ -2,7 +2,7 @@
 import numpy as np
 
 from ... import curves, plotting
-from .. import boundaries
+from ..studies import section_7_2_boundaries as boundaries
 
 __all__ = ["boundaries_compared"]
 

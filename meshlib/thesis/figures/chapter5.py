@@ -2,7 +2,7 @@
 import numpy as np
 
 from ... import plotting
-from ..experiments import run
+from ..studies.experiments import run
 from .adapted import DOT, DOUBLE, HEAVY, refined, started, swapped
 
 __all__ = ["figure_5_1", "figure_5_2", "figure_5_3", "figure_5_4", "figure_5_5", "figure_5_6",

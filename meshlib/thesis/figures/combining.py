@@ -2,7 +2,7 @@
 import numpy as np
 
 from ... import Interpolant, combined, delaunay, plotting, problems
-from .. import combining
+from ..studies import section_7_5_combining as combining
 
 __all__ = ["combining_compared", "combining_cycle"]
 

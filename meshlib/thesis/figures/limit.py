@@ -2,7 +2,7 @@
 import numpy as np
 
 from ... import Interpolant, plotting
-from .. import conditioning, limit
+from ..studies import section_7_7b_conditioning as conditioning, section_7_7a_limit as limit
 
 __all__ = ["conditioned", "directed", "efficient", "gallery", "terrain_and_hole"]
 

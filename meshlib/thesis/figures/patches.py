@@ -2,7 +2,7 @@
 import numpy as np
 
 import meshlib as ml
-from meshlib.draws import Draws
+from meshlib.support.random_numbers import Draws
 
 ROW = 0.866  # height of a row of almost equilateral elements
 SEED = 3

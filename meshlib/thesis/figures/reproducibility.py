@@ -2,10 +2,11 @@
 import numpy as np
 
 from ... import plotting
-from .. import printed, studies
-from ..experiments import EXPERIMENTS
-from ..measures import L2
-from ..study_tables import title
+from ..record import printed
+from ..studies import appendix_b as studies
+from ..studies.experiments import EXPERIMENTS
+from ..studies.measures import L2
+from ..tables.appendix_b import title
 
 __all__ = ["study_angle_limits", "study_every_mesh", "study_maxima", "study_means", "study_noise"]
 

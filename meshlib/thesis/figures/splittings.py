@@ -2,9 +2,9 @@
 import numpy as np
 
 from ... import plotting
-from ...marking import MARKS
-from ...splitting import SPLITS
-from .. import splittings
+from ...refinement.marking import MARKS
+from ...refinement.splitting import SPLITS
+from ..studies import section_7_1_splittings as splittings
 
 __all__ = ["splittings_compared", "splittings_meshes"]
 
