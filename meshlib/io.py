@@ -1,4 +1,5 @@
 """Meshes and nodal values in and out of files, through meshio."""
+
 import numpy as np
 
 from . import checks

@@ -1,4 +1,5 @@
 """The ramp over the lattice: symmetry, exact alignment, and what springs repair."""
+
 import numpy as np
 import pytest
 
@@ -21,7 +22,9 @@ def test_shapes_are_better_and_errors_larger_in_line_than_beside():
     for slope in ((0, 1), (1, 2), (1, 1), (2, 1), (1, 0)):
         angle = alignment.angle_of(*slope)
         error, skewness = alignment.measures("swapped", angle)
-        beside = [alignment.measures("swapped", angle + step) for step in (-alignment.BESIDE, alignment.BESIDE)]
+        beside = [
+            alignment.measures("swapped", angle + step) for step in (-alignment.BESIDE, alignment.BESIDE)
+        ]
         assert all(skewness < s - 0.2 and error > e for e, s in beside)
 
 

@@ -1,16 +1,17 @@
 """Who contains a point: compiled search over strips against arrays, one by one, and against all elements."""
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strategies import meshes, problems_of
+from support import lattice
 
-from meshlib import delaunay, Interpolant, Mesh
+from meshlib import Interpolant, Mesh, delaunay
 from meshlib.geometry import predicates
 from meshlib.interpolation import locate_by_buckets, locate_by_strips
 from meshlib.kernels import element_shapes
 from meshlib.kernels.backend import readable
-from strategies import meshes, problems_of
-from support import lattice
 
 
 def slow(mesh, points):
@@ -36,7 +37,7 @@ def points_around(mesh, seed, count=40):
 
 
 @settings(max_examples=100)
-@given(meshes(scales=(1.0, 0.1, 1 / 3, 2.0 ** -30, 1e6)), st.integers(0, 999))
+@given(meshes(scales=(1.0, 0.1, 1 / 3, 2.0**-30, 1e6)), st.integers(0, 999))
 def test_all_ways_choose_the_same_element(mesh, seed):
     points = points_around(mesh, seed)
     box = ((points >= mesh.nodes.min(axis=0)) & (points <= mesh.nodes.max(axis=0))).all(axis=1)
@@ -51,7 +52,10 @@ def test_all_ways_choose_the_same_element(mesh, seed):
 def test_values_in_strips_are_those_in_arrays(problem, seed):
     mesh, values = problem
     points = points_around(mesh, seed)
-    found, expected = locate_by_strips.Strips(mesh, points).values(values), Interpolant(mesh, values)(*points.T)
+    found, expected = (
+        locate_by_strips.Strips(mesh, points).values(values),
+        Interpolant(mesh, values)(*points.T),
+    )
     assert np.array_equal(np.isnan(found), np.isnan(expected))
     assert np.nanmax(np.abs(found - expected), initial=0) <= 1e-12 * (np.abs(values).max() or 1)
 
@@ -64,7 +68,9 @@ def test_flat_is_what_the_predicate_says(mesh, lift):
     nodes[::2, 2] = nodes[::2, :2].mean(axis=1) * (1 + lift)
     unit = float(np.abs(nodes).max())
     each = readable(np.arange(3 * len(nodes)).reshape(-1, 3))
-    found = [element_shapes.is_flat(readable(nodes), *each[3 * t:3 * t + 3], unit) for t in range(len(nodes))]
+    found = [
+        element_shapes.is_flat(readable(nodes), *each[3 * t : 3 * t + 3], unit) for t in range(len(nodes))
+    ]
     assert found == predicates.nearly_flat(nodes).tolist()
 
 

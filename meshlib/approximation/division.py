@@ -1,4 +1,5 @@
 """Elements divided into four: what is well arranged stays so at half the size."""
+
 import numpy as np
 
 from ..mesh.boundary_sides import INTERIOR
@@ -27,7 +28,7 @@ def bisect(draft, most):
         New nodes at most.
     """
     order = draft.worst(most)
-    tried = [order[:len(order) >> k] for k in range(len(order).bit_length())]
+    tried = [order[: len(order) >> k] for k in range(len(order).bit_length())]
     for marked in (*tried, *order[1:ALONE, None]):
         elements, parents, ends, _ = SPLITS["longest-edge"](draft.mesh, np.sort(marked))
         if len(ends) <= most and _are_allowed(draft, elements, parents, ends):

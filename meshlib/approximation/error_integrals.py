@@ -1,4 +1,5 @@
 """How far u_h is from a known u: integrals of a power of the error over elements and along edges."""
+
 from functools import cache
 
 import numpy as np
@@ -8,11 +9,15 @@ from ..mesh.quality import angles
 from ..mesh.topology import HEADS, TAILS
 
 # Dunavant 1985, points the same from each corner: twelve of degree 6, six of degree 4.
-TWELVE = ((0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
-          (0.06308901449150223, 0.06308901449150223, 0.05084490637020682),
-          (0.31035245103378440, 0.63650249912139870, 0.08285107561837358))
-SIX = ((0.44594849091596489, 0.44594849091596489, 0.22338158967801147),
-       (0.09157621350977073, 0.09157621350977073, 0.10995174365532187))
+TWELVE = (
+    (0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
+    (0.06308901449150223, 0.06308901449150223, 0.05084490637020682),
+    (0.31035245103378440, 0.63650249912139870, 0.08285107561837358),
+)
+SIX = (
+    (0.44594849091596489, 0.44594849091596489, 0.22338158967801147),
+    (0.09157621350977073, 0.09157621350977073, 0.10995174365532187),
+)
 PERMUTATIONS = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2), (0, 2, 1), (2, 1, 0))
 SAMPLED = 8  # parts of each side of a part of an element, at whose ends the largest error is looked for
 ALONG = 4  # Gauss points along a boundary edge
@@ -55,7 +60,7 @@ def _in_each(parts, points):
 
 def _all_parts(level, halvings):
     """Corners of the slices of all parts, (n, 3, 3), in barycentric coordinates."""
-    return np.einsum("sck,pkd->pscd", _slices(2 ** halvings), _parts(level)).reshape(-1, 3, 3)
+    return np.einsum("sck,pkd->pscd", _slices(2**halvings), _parts(level)).reshape(-1, 3, 3)
 
 
 def _slices(n):
@@ -76,7 +81,7 @@ def _points(orbits):
 
 def _parts(level):
     """Corners of the parts, (4^level, 3, 3), in barycentric coordinates."""
-    n = 2 ** level
+    n = 2**level
     i, j = (k.ravel() for k in np.meshgrid(np.arange(n), np.arange(n), indexing="ij"))
     up = np.stack([i, j, i + 1, j, i, j + 1], axis=1)[i + j < n]
     down = np.stack([i + 1, j + 1, i, j + 1, i + 1, j], axis=1)[i + j < n - 1]
@@ -189,8 +194,8 @@ class Misfit:
 
     def _divisions(self, areas, sides):
         """Level and halvings for each element in one number."""
-        level = np.ceil(np.log2((2 * np.abs(areas) / self.spacing ** 2).clip(min=1)) / 2).clip(max=DEEPEST)
-        length = np.sqrt(sides.max(axis=1)) / 2 ** level / (LONGEST * self.spacing)
+        level = np.ceil(np.log2((2 * np.abs(areas) / self.spacing**2).clip(min=1)) / 2).clip(max=DEEPEST)
+        length = np.sqrt(sides.max(axis=1)) / 2**level / (LONGEST * self.spacing)
         halvings = np.ceil(np.log2(length.clip(min=1))).clip(max=MOST_SLICES)
         return (level * (MOST_SLICES + 1) + halvings).astype(int)
 

@@ -1,4 +1,5 @@
 """The least number of nodes with which an error is within a tolerance."""
+
 import numpy as np
 
 FIRST = 30  # nodes tried first
@@ -72,5 +73,5 @@ def _between(ahead, nodes, below, above, is_bound):
     """A whole number near the one foreseen, above what is too few and below what is enough."""
     ahead = min(ahead, MOST_LEAPS * nodes, above)
     if is_bound:
-        ahead = np.clip(ahead, below * CLOSE ** 0.5, max(above / CLOSE ** 0.5, below + 1))
+        ahead = np.clip(ahead, below * CLOSE**0.5, max(above / CLOSE**0.5, below + 1))
     return int(np.clip(round(ahead), below + 1, above - 1 if is_bound else above))

@@ -10,10 +10,11 @@ of their squares, so that the error is 3/4 of that of strips::
     |/  |/  |/  |           \   /   \   /   \       s grows to the right
     *---*---*---*            *-------*-------*
 """
+
 import numpy as np
 
-from ..support.random_numbers import Draws
 from ..mesh.mesh import Mesh
+from ..support.random_numbers import Draws
 
 STEP = 1e-5  # of the size of the rectangle, for differences of the function
 LOOKED_AT = 4000  # points at which the function is asked whether it has one direction
@@ -66,8 +67,9 @@ def _direction(function, low, high):
     """The unit vector along which alone the function changes, or None."""
     points = low + (STEP + (1 - 2 * STEP) * Draws(0).uniform((LOOKED_AT, 2))) * (high - low)
     step = STEP * (high - low).min()
-    ahead, behind = (np.stack([function(*(points + e).T) for e in signed * np.eye(2)])
-                     for signed in (step, -step))
+    ahead, behind = (
+        np.stack([function(*(points + e).T) for e in signed * np.eye(2)]) for signed in (step, -step)
+    )
     slopes = (ahead - behind).T
     steepest = slopes[np.hypot(*slopes.T).argmax()]
     if not np.isfinite(slopes).all() or not steepest.any():

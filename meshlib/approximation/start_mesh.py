@@ -1,11 +1,12 @@
 """The mesh with which the search for a better one begins."""
+
 import numpy as np
 
 from .. import checks
-from ..mesh.delaunay import delaunay
-from ..support.random_numbers import Draws
 from ..errors import MeshError
+from ..mesh.delaunay import delaunay
 from ..mesh.mesh import Mesh
+from ..support.random_numbers import Draws
 from .collapse import collapse
 
 CELLS = 3  # of the first lattice along the shorter side of a rectangle
@@ -43,12 +44,18 @@ def corners(domain):
     try:
         low, high = np.asarray(domain, dtype=float).reshape(2, 2)
     except (TypeError, ValueError):
-        raise MeshError("domain", f"the domain is {domain!r}; give the lower left and the upper right corner "
-                        "of a rectangle, or a mesh") from None
+        raise MeshError(
+            "domain",
+            f"the domain is {domain!r}; give the lower left and the upper right corner "
+            "of a rectangle, or a mesh",
+        ) from None
     size = high - low
     if not (np.isfinite(size).all() and (size > 0).all() and size.max() <= LARGEST_STRETCH * size.min()):
-        raise MeshError("domain", f"the rectangle from {low.tolist()} to {high.tolist()} has no area or is "
-                        "too long; give the lower left and the upper right corner")
+        raise MeshError(
+            "domain",
+            f"the rectangle from {low.tolist()} to {high.tolist()} has no area or is "
+            "too long; give the lower left and the upper right corner",
+        )
     return low, high
 
 
@@ -56,5 +63,6 @@ def fit(draft, nodes):
     """Take nodes out of a start mesh that has too many."""
     while draft.n_nodes > nodes:
         if not collapse(draft, 1 - nodes / draft.n_nodes):
-            raise MeshError("nodes", f"{nodes} nodes are too few for this domain, {draft.n_nodes} are left; "
-                            "give more")
+            raise MeshError(
+                "nodes", f"{nodes} nodes are too few for this domain, {draft.n_nodes} are left; give more"
+            )

@@ -1,12 +1,13 @@
 """A mesh in the making: what operations replace, and the error of each element."""
+
 from copy import copy
 
 import numpy as np
 
-from ..support.independent import coarse
-from ..mesh.mesh import Mesh
 from ..mesh.boundary_sides import sides_of
+from ..mesh.mesh import Mesh
 from ..mesh.topology import around_nodes, grouped
+from ..support.independent import coarse
 
 LITTLE = 1e-6  # of the mean error of an element, below which there is nothing to gain
 WORST = 0.3  # of the largest error, from which on an element is one of the worst

@@ -1,4 +1,5 @@
 """Swapping and moving combined, patch by patch (Algorithm 7.5.1)."""
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -6,10 +7,10 @@ import numpy as np
 from .. import checks, criteria
 from ..errors import MeshError
 from ..mesh.mesh import Mesh
-from .patch import Objective
-from ..swapping.swapped import prepared
 from ..mesh.topology import canonical
 from ..mesh.validation import halved
+from ..swapping.swapped import prepared
+from .patch import Objective
 
 WAYS = ("swap", "move")
 NORMS = (1, 2)
@@ -17,8 +18,9 @@ LEAST_GAIN = 1e-6  # of the indicator at the start
 ROUNDING = 1e-12  # of the indicator of a patch
 MOST_SWEEPS = 1000
 DEGREE = 12  # of the quadrature of the default indicator
-STEP = np.dtype([("sweep", np.int32), ("node", np.int32), ("way", "U4"), ("gain", np.float64),
-                 ("indicator", np.float64)])
+STEP = np.dtype(
+    [("sweep", np.int32), ("node", np.int32), ("way", "U4"), ("gain", np.float64), ("indicator", np.float64)]
+)
 
 
 @dataclass(frozen=True)
@@ -52,8 +54,17 @@ class Combination:
     steps: np.ndarray
 
 
-def combined(mesh, function, criterion=None, norm=2, ways=WAYS, rim=True, min_angle=None,
-             least_gain=LEAST_GAIN, sweeps=MOST_SWEEPS):
+def combined(
+    mesh,
+    function,
+    criterion=None,
+    norm=2,
+    ways=WAYS,
+    rim=True,
+    min_angle=None,
+    least_gain=LEAST_GAIN,
+    sweeps=MOST_SWEEPS,
+):
     """The mesh after the combined strategy: on each patch the better of swapping and moving.
 
     Node by node, the patch of elements around an interior node is changed in two ways:
@@ -113,8 +124,13 @@ def combined(mesh, function, criterion=None, norm=2, ways=WAYS, rim=True, min_an
     mesh = checks.a_mesh(mesh)
     objective = _objective(mesh, function, criterion, norm, rim, min_angle)
     ways = _ways(ways)
-    share = checks.number(least_gain, "least_gain", np.nextafter(0, 1), 1, "a share above 0 and below 1, "
-                          "since ever smaller gains need never end")
+    share = checks.number(
+        least_gain,
+        "least_gain",
+        np.nextafter(0, 1),
+        1,
+        "a share above 0 and below 1, since ever smaller gains need never end",
+    )
     run = _Run(mesh, objective, ways, share)
     period = run.sweep(checks.whole(sweeps, 1, "sweeps"))
     green = mesh.green[halved(run.nodes, run.elements, mesh.green) & run.untouched(mesh)]
@@ -124,8 +140,11 @@ def combined(mesh, function, criterion=None, norm=2, ways=WAYS, rim=True, min_an
 
 def _objective(mesh, function, criterion, norm, rim, min_angle):
     if not callable(function):
-        raise MeshError("type", f"u is a {type(function).__name__}; give a function u(x, y), "
-                        "since nodes move to where there is no value")
+        raise MeshError(
+            "type",
+            f"u is a {type(function).__name__}; give a function u(x, y), "
+            "since nodes move to where there is no value",
+        )
     checks.choice(norm, NORMS, "norm")
     criterion = criteria.min_error(function, DEGREE) if criterion is None else criterion
     swap = prepared(mesh, function, criterion, norm, min_angle, None, None)

@@ -8,6 +8,7 @@ r"""The patch of elements around a node, its indicator of the error, and the two
          \ / \ /                depend on them.
           n---m
 """
+
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,9 +16,9 @@ import numpy as np
 
 from ..interpolation.interpolant import Interpolant
 from ..mesh.mesh import Mesh
-from ..swapping.procedure import Limits, Procedure
 from ..mesh.quality import angles
 from ..mesh.topology import canonical, quadrilaterals
+from ..swapping.procedure import Limits, Procedure
 
 FLAT = 1e-9  # radians, about: an element is refused if its smallest angle is below
 COMPASS = np.array([(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]) / 1.0
@@ -61,8 +62,16 @@ class Objective:
         own = canonical(elements[inner])
         beyond = self._affected(elements, own, inner, len(nodes)) if self.rim else own[:0]
         used, rows = np.unique(np.concatenate([own, beyond]), return_inverse=True)
-        return Patch(self, used, np.searchsorted(used, centre), len(own), np.flatnonzero(inner),
-                     nodes[used], values[used], rows.reshape(-1, 3))
+        return Patch(
+            self,
+            used,
+            np.searchsorted(used, centre),
+            len(own),
+            np.flatnonzero(inner),
+            nodes[used],
+            values[used],
+            rows.reshape(-1, 3),
+        )
 
     def _affected(self, elements, own, inner, n_nodes):
         """The elements beyond the rim on which the costs of the patch depend."""
@@ -99,7 +108,7 @@ class Patch:
     @property
     def own(self):
         """(size, 3): the elements of the patch, in the numbers of the large mesh."""
-        return self.used[self.elements[:self.size]]
+        return self.used[self.elements[: self.size]]
 
     @cached_property
     def mesh(self):
@@ -113,7 +122,7 @@ class Patch:
     @cached_property
     def extent(self):
         """Largest distance of two nodes of the patch along x or y."""
-        return np.ptp(self.nodes[self.elements[:self.size]].reshape(-1, 2), axis=0).max()
+        return np.ptp(self.nodes[self.elements[: self.size]].reshape(-1, 2), axis=0).max()
 
     # -- the indicator with the node in the middle at other positions ---------------------
 
@@ -140,7 +149,7 @@ class Patch:
         """Where no element is turned over, flat, or sharper than the limit."""
         nodes = np.tile(self.nodes, (len(positions), 1, 1))
         nodes[:, self.centre] = positions
-        corners = nodes[:, self.elements[:self.size]]
+        corners = nodes[:, self.elements[: self.size]]
         u, v = corners[:, :, 1] - corners[:, :, 0], corners[:, :, 2] - corners[:, :, 0]
         upright = (u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0] > 0).all(axis=1)
         smallest = angles(corners.reshape(-1, 3, 2)).reshape(len(positions), -1).min(axis=1)
@@ -159,13 +168,13 @@ class Patch:
 
     def _node_costs(self, nodes, values):
         cost = self.objective.criterion.cost(Interpolant(Mesh._trusted(nodes, self.elements), values))
-        return cost[np.unique(self.elements[:self.size])]
+        return cost[np.unique(self.elements[: self.size])]
 
     @cached_property
     def _stencils(self):
         """Nodes that each cost depends on, in the order in which a cost function wants them."""
         if self.objective.criterion.on == "element":
-            return self.elements[:self.size]
+            return self.elements[: self.size]
         a, b, c, d = quadrilaterals(self.mesh, self._edges(any))[0].T
         return np.column_stack([b, c, a, d])
 
@@ -180,8 +189,15 @@ class Patch:
     def swapped(self):
         """The patch after the local optimisation procedure on its inner edges."""
         objective = self.objective
-        procedure = Procedure(self.mesh, self.values, objective.criterion, objective.norm, objective.limits,
-                              objective.tolerance, once=True)
+        procedure = Procedure(
+            self.mesh,
+            self.values,
+            objective.criterion,
+            objective.norm,
+            objective.limits,
+            objective.tolerance,
+            once=True,
+        )
         done = procedure.run(self._edges(all))
         own, beyond = np.split(done.elements, [self.size])
         return replace(self, elements=np.concatenate([canonical(own), beyond])) if done.swaps else self
@@ -192,8 +208,11 @@ class Patch:
         A few points in each element are tried first; from the best of them, compass
         steps lead downhill, halved where none does.
         """
-        places = np.einsum("sk,tkc->tsc", SAMPLES / SAMPLES.sum(axis=1, keepdims=True),
-                           self.nodes[self.elements[:self.size]]).reshape(-1, 2)
+        places = np.einsum(
+            "sk,tkc->tsc",
+            SAMPLES / SAMPLES.sum(axis=1, keepdims=True),
+            self.nodes[self.elements[: self.size]],
+        ).reshape(-1, 2)
         at, least = _best(self.nodes[self.centre], self.error, places, self.errors(places))
         step = FIRST_STEP
         while step > LAST_STEP:

@@ -20,9 +20,20 @@ of n edges, and the opposite nodes of the elements to their left and right.  An
 element cost gets its three nodes likewise, a node cost the `Interpolant`.  Costs
 must be at least 0, and larger where the mesh is worse.
 """
+
 from .criterion import Criterion
 from .from_functions import min_error, pointwise
 from .registry import costs, get, names, plane_gradients, prefers, register, unregister
 
-__all__ = ["Criterion", "costs", "get", "min_error", "names", "plane_gradients", "pointwise", "prefers",
-           "register", "unregister"]
+__all__ = [
+    "Criterion",
+    "costs",
+    "get",
+    "min_error",
+    "names",
+    "plane_gradients",
+    "pointwise",
+    "prefers",
+    "register",
+    "unregister",
+]

@@ -7,6 +7,7 @@ return one number of at least 0 for each edge, element or node.
 
 The compiled forms in `meshlib.kernels.lop` are tested against these.
 """
+
 import numpy as np
 
 from ..interpolation.interpolant import gradients, squared_errors
@@ -59,7 +60,7 @@ def distances_from_planes(p, q, left, right):
     """
     g, h = plane_gradients(p, q, left), plane_gradients(q, p, right)
     over, under = _misses(p, q, left, right)
-    return np.hypot(over / np.sqrt(1 + (g ** 2).sum(axis=1)), under / np.sqrt(1 + (h ** 2).sum(axis=1)))
+    return np.hypot(over / np.sqrt(1 + (g**2).sum(axis=1)), under / np.sqrt(1 + (h**2).sum(axis=1)))
 
 
 def _misses(p, q, left, right):

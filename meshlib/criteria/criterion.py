@@ -1,4 +1,5 @@
 """What a criterion is: a cost for each edge, element or node, evaluated over a mesh."""
+
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -67,6 +68,7 @@ class Criterion:
         if self.pointwise is None:
             return None
         from ..kernels import user_costs
+
         return user_costs.pointer(self.pointwise, self.on)
 
     @property

@@ -1,4 +1,5 @@
 """Criteria made from a function: the cost of one edge or element, or u itself."""
+
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import checks
+from ..errors import MeshError
 from ..geometry import quadrature
+from ..kernels import codes
 from .cost_functions import element_errors
 from .criterion import PLACES, Criterion
-from ..errors import MeshError
-from ..kernels import codes
 
 ERROR_DEGREE = 6
 
@@ -34,6 +35,7 @@ class _ErrorOnElement:
 
     def __call__(self):
         from ..kernels import user_costs
+
         points, weights = quadrature.rule(self.degree)
         plain = getattr(self.function, "function", self.function)  # a TestFunction wraps its formula
         return user_costs.error_of(plain, tuple(map(tuple, points.tolist())), tuple(weights.tolist()))
@@ -63,10 +65,19 @@ def min_error(function, degree=ERROR_DEGREE):
     >>> bool(np.isclose(np.hypot(*cost), Interpolant(mesh, u).l2_error(u, rule="exact")))
     True
     """
+
     def cost(a, b, c):
         return element_errors(a, b, c, function, degree)
-    return Criterion("min-error", "element", cost, "L2 error", lambda extent, height: height * extent,
-                     codes.OWN_ELEMENT, pointwise=_ErrorOnElement(function, degree))
+
+    return Criterion(
+        "min-error",
+        "element",
+        cost,
+        "L2 error",
+        lambda extent, height: height * extent,
+        codes.OWN_ELEMENT,
+        pointwise=_ErrorOnElement(function, degree),
+    )
 
 
 def pointwise(name, on, cost, title="", unit=None):
@@ -111,12 +122,16 @@ def pointwise(name, on, cost, title="", unit=None):
 
     def vectorised(*points):
         return _one_by_one(cost, on, points)
+
     code = codes.OWN_EDGE if on == "edge" else codes.OWN_ELEMENT
     unit = unit or (lambda extent, height: 0.0)
     found = Criterion(name, on, vectorised, title, unit, code, pointwise=_Given(cost))
     if found.pointer is None:
-        warnings.warn(f"numba cannot compile the cost of {name!r}; the procedure will run in Python",
-                      RuntimeWarning, stacklevel=2)
+        warnings.warn(
+            f"numba cannot compile the cost of {name!r}; the procedure will run in Python",
+            RuntimeWarning,
+            stacklevel=2,
+        )
     return found
 
 
@@ -124,6 +139,7 @@ def _one_by_one(cost, on, points):
     """The cost of each edge or element, from (n, 3) arrays of its four or three points."""
     from ..kernels import user_costs
     from ..kernels.backend import flat, readable
+
     given = user_costs.pointer(_Given(cost), on)
     if given is None:
         return np.array([cost(*numbers) for numbers in np.concatenate(points, axis=1).tolist()])

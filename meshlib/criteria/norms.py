@@ -1,4 +1,5 @@
 """Orders on cost vectors (section 2.2): L1, L2, maximum and lexicographic."""
+
 import numpy as np
 
 from .. import checks
@@ -30,8 +31,11 @@ def measure(costs, norm, grain=0.0):
     if checked(norm) == "lexicographic":
         costs = np.rint(costs / grain) * grain if grain > 0 else costs
         return tuple(np.sort(costs)[::-1].tolist())
-    return {1: lambda: float(costs.sum()), 2: lambda: float((costs ** 2).sum()),
-            "max": lambda: float(costs.max(initial=0.0))}[checked(norm)]()
+    return {
+        1: lambda: float(costs.sum()),
+        2: lambda: float((costs**2).sum()),
+        "max": lambda: float(costs.max(initial=0.0)),
+    }[checked(norm)]()
 
 
 def norm_of(costs, norm):
@@ -43,7 +47,7 @@ def norm_of(costs, norm):
     (5.0, 7.0)
     """
     found = measure(costs, norm)
-    return found ** 0.5 if norm == 2 else found[0] if isinstance(found, tuple) else found
+    return found**0.5 if norm == 2 else found[0] if isinstance(found, tuple) else found
 
 
 def tolerance(scale):
@@ -68,7 +72,7 @@ def is_below(new, old, norm, relative, absolute):
     if new >= old:
         return new - old < -absolute
     if norm == 2:
-        new, old = new ** 0.5, old ** 0.5
+        new, old = new**0.5, old**0.5
     return new < old * (1 - relative) - absolute
 
 

@@ -1,7 +1,10 @@
 """Criteria by name."""
+
 import numpy as np
 
 from .. import checks
+from ..errors import MeshError
+from ..kernels import codes
 from .cost_functions import (
     angle_between_normals,
     deviations_from_linear_polynomials,
@@ -13,13 +16,21 @@ from .cost_functions import (
     smallest_angle,
 )
 from .criterion import Criterion
-from ..errors import MeshError
-from ..kernels import codes
-from .norms import precedes
 from .from_functions import min_error, pointwise
+from .norms import precedes
 
-__all__ = ["Criterion", "costs", "get", "min_error", "names", "plane_gradients", "pointwise", "prefers",
-           "register", "unregister"]
+__all__ = [
+    "Criterion",
+    "costs",
+    "get",
+    "min_error",
+    "names",
+    "plane_gradients",
+    "pointwise",
+    "prefers",
+    "register",
+    "unregister",
+]
 
 
 def costs(mesh, values, criterion="jnd"):
@@ -75,8 +86,10 @@ def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
     if values is None and not criterion.geometric:
         raise MeshError("shape", f"criterion {criterion.name!r} depends on the data; give values")
     pair = values if isinstance(values, tuple) else (values, values)
-    first, second = (criterion.costs(mesh, np.zeros(mesh.n_nodes) if v is None else v)
-                     for mesh, v in zip((mesh_a, mesh_b), pair, strict=True))
+    first, second = (
+        criterion.costs(mesh, np.zeros(mesh.n_nodes) if v is None else v)
+        for mesh, v in zip((mesh_a, mesh_b), pair, strict=True)
+    )
     return precedes(first, second, norm)
 
 
@@ -136,19 +149,62 @@ def get(criterion):
 
 
 for _criterion in (
-    Criterion("jnd", "edge", jump_in_normal_derivatives, "jump in normal derivatives",
-              lambda extent, height: height / extent, code=codes.JND),
-    Criterion("abn", "edge", angle_between_normals, "angle between normals",
-              lambda extent, height: min(1.0, height / extent), code=codes.ABN),
-    Criterion("dlp", "edge", deviations_from_linear_polynomials, "deviations from linear polynomials",
-              lambda extent, height: height, code=codes.DLP),
-    Criterion("dfp", "edge", distances_from_planes, "distances from planes",
-              lambda extent, height: min(height, extent), code=codes.DFP),
-    Criterion("smallest-angle", "element", smallest_angle, "smallest angle",
-              lambda extent, height: 1.0, code=codes.SMALLEST_ANGLE, geometric=True),
-    Criterion("largest-angle", "element", largest_angle, "largest angle",
-              lambda extent, height: 1.0, code=codes.LARGEST_ANGLE, geometric=True),
-    Criterion("gradient-spread", "node", gradient_spread, "spread of the gradients in the patch",
-              lambda extent, height: height / extent),
+    Criterion(
+        "jnd",
+        "edge",
+        jump_in_normal_derivatives,
+        "jump in normal derivatives",
+        lambda extent, height: height / extent,
+        code=codes.JND,
+    ),
+    Criterion(
+        "abn",
+        "edge",
+        angle_between_normals,
+        "angle between normals",
+        lambda extent, height: min(1.0, height / extent),
+        code=codes.ABN,
+    ),
+    Criterion(
+        "dlp",
+        "edge",
+        deviations_from_linear_polynomials,
+        "deviations from linear polynomials",
+        lambda extent, height: height,
+        code=codes.DLP,
+    ),
+    Criterion(
+        "dfp",
+        "edge",
+        distances_from_planes,
+        "distances from planes",
+        lambda extent, height: min(height, extent),
+        code=codes.DFP,
+    ),
+    Criterion(
+        "smallest-angle",
+        "element",
+        smallest_angle,
+        "smallest angle",
+        lambda extent, height: 1.0,
+        code=codes.SMALLEST_ANGLE,
+        geometric=True,
+    ),
+    Criterion(
+        "largest-angle",
+        "element",
+        largest_angle,
+        "largest angle",
+        lambda extent, height: 1.0,
+        code=codes.LARGEST_ANGLE,
+        geometric=True,
+    ),
+    Criterion(
+        "gradient-spread",
+        "node",
+        gradient_spread,
+        "spread of the gradients in the patch",
+        lambda extent, height: height / extent,
+    ),
 ):
     register(_criterion)

@@ -1,4 +1,5 @@
 """Morton's curve: through the quarters of a square one after the other, and of each likewise."""
+
 import numpy as np
 
 BYTE = 256

@@ -1,4 +1,5 @@
 """Points and polygons, the polygon given by its corners in order, (n, 2)."""
+
 import numpy as np
 
 APART = 0.6  # least distance of a lattice to the polygon around it, in spacings
@@ -29,5 +30,5 @@ def distance(ring, points):
     """Distance of points to the edges of a polygon."""
     along = np.roll(ring, -1, axis=0) - ring
     away = points[:, None] - ring
-    share = ((away * along).sum(axis=2) / (along ** 2).sum(axis=1)).clip(0, 1)
+    share = ((away * along).sum(axis=2) / (along**2).sum(axis=1)).clip(0, 1)
     return np.sqrt(((away - share[..., None] * along) ** 2).sum(axis=2)).min(axis=1)

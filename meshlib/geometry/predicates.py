@@ -5,11 +5,12 @@ A determinant in floating point comes with a bound on its rounding error
 where it does not are scaled to integers, which Python multiplies exactly, and
 put through the *same* formula.
 """
+
 from itertools import combinations
 
 import numpy as np
 
-ROUNDOFF = 2.0 ** -53
+ROUNDOFF = 2.0**-53
 ORIENTATION_BOUND = (3 + 16 * ROUNDOFF) * ROUNDOFF
 INCIRCLE_BOUND = (10 + 96 * ROUNDOFF) * ROUNDOFF
 MANTISSA_BITS = 53
@@ -141,4 +142,4 @@ def _as_integers(points):
     integers = np.ldexp(mantissas, MANTISSA_BITS).astype(np.int64).astype(object)
     smallest = exponents[mantissas != 0].min(initial=exponents.max())
     shifts = np.where(mantissas != 0, exponents - smallest, 0).astype(object)
-    return list(integers * 2 ** shifts)
+    return list(integers * 2**shifts)

@@ -1,4 +1,5 @@
 """Quadrature on the reference triangle, exact to any degree."""
+
 from functools import cache
 
 import numpy as np
@@ -30,6 +31,7 @@ def rule(degree):
     0.066666666667
     """
     from scipy.special import roots_jacobi, roots_legendre
+
     n = degree // 2 + 1
     s, ws = roots_legendre(n)
     t, wt = roots_jacobi(n, 1, 0)  # the weight 1 - t is the Jacobian of the collapse

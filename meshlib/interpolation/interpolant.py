@@ -1,13 +1,14 @@
 """The continuous piecewise linear interpolant u_h of nodal values (chapter 2)."""
+
 from functools import cached_property
 
 import numpy as np
 
 from .. import checks
-from ..geometry import quadrature
-from . import locate_by_strips
 from ..errors import MeshError
+from ..geometry import quadrature
 from ..kernels import for_work
+from . import locate_by_strips
 from .locate_by_buckets import located
 
 DEFAULT_DEGREE = 8
@@ -106,8 +107,15 @@ class Interpolant:
         unit = np.abs([low, high]).max()
         slack = raster.SLACK + ROUNDING * (np.abs([low, high]).max(axis=0) / step).max()
         grid = kernels.backend.writable(np.full(nx * ny, np.nan))
-        raster.filled(grid, nx, ny, *map(float, (*low, *1 / step, slack, unit)),
-                      readable(self.mesh.elements), readable(self.mesh.nodes), readable(self.values))
+        raster.filled(
+            grid,
+            nx,
+            ny,
+            *map(float, (*low, *1 / step, slack, unit)),
+            readable(self.mesh.elements),
+            readable(self.mesh.nodes),
+            readable(self.values),
+        )
         return np.reshape(grid, (ny, nx))
 
     def l2_error(self, function, rule="trapezium", points=101, degree=DEFAULT_DEGREE):
@@ -145,8 +153,9 @@ class Interpolant:
         checks.choice(rule, ("trapezium", "exact"), "rule")
         square = self._by_quadrature(function, degree) if rule == "exact" else self._by_grid(function, points)
         if not np.isfinite(square):
-            raise MeshError("finite", "the function is not finite everywhere in the domain; "
-                            "l2_error needs it to be")
+            raise MeshError(
+                "finite", "the function is not finite everywhere in the domain; l2_error needs it to be"
+            )
         return float(np.sqrt(square))
 
     def _by_quadrature(self, function, degree):
@@ -155,9 +164,8 @@ class Interpolant:
     def _by_grid(self, function, points):
         x, y, error = self.error_on_grid(function, checks.whole(points, 2, "points"))
         if not np.isclose(np.ptp(x) * np.ptp(y), self.mesh.domain_area, rtol=FILLED, atol=0):
-            raise MeshError("domain", "the trapezium rule needs a rectangular domain; "
-                            'use rule="exact"')
-        return np.trapezoid(np.trapezoid(error ** 2, x, axis=1), y)
+            raise MeshError("domain", 'the trapezium rule needs a rectangular domain; use rule="exact"')
+        return np.trapezoid(np.trapezoid(error**2, x, axis=1), y)
 
     def error_on_grid(self, function, points=101):
         """u - u_h on a regular grid: x (points,), y (points,), error (points, points)."""
@@ -206,4 +214,4 @@ def _squared_errors(corners, values, function, degree):
     error = function(x, y) - values @ barycentric.T
     e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     areas = np.abs(e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]) / 2
-    return areas * (error ** 2 @ weights)
+    return areas * (error**2 @ weights)

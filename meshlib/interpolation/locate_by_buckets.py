@@ -1,8 +1,9 @@
 """Which element a point lies in, by a grid of buckets over the bounding box."""
+
 import numpy as np
 
-from . import locate_by_strips
 from ..geometry.predicates import nearly_flat
+from . import locate_by_strips
 
 INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
 PAIRS_AT_ONCE = 2_000_000
@@ -41,7 +42,7 @@ def by_buckets(mesh, points):
     found = np.empty(len(points), dtype=np.int32)
     step = max(1, int(PAIRS_AT_ONCE / buckets.mean_load))
     for start in range(0, len(points), step):
-        found[start:start + step] = buckets.search(points[start:start + step])
+        found[start : start + step] = buckets.search(points[start : start + step])
     return found
 
 
@@ -76,9 +77,9 @@ class _Buckets:
         row, column = np.divmod(place, width[element])
         cell = (first[element, 1] + row) * self.n + first[element, 0] + column
         self.elements = element[np.argsort(cell, kind="stable")]
-        load = np.bincount(cell, minlength=self.n ** 2)
+        load = np.bincount(cell, minlength=self.n**2)
         self.starts = np.concatenate([[0], np.cumsum(load)])
-        self.mean_load = max(1.0, float((load ** 2).sum() / max(load.sum(), 1)))
+        self.mean_load = max(1.0, float((load**2).sum() / max(load.sum(), 1)))
 
     def search(self, points):
         """The best element of each point's cell, or -1."""

@@ -3,6 +3,7 @@
 The points are sorted into strips, so that crowded places have narrow strips and long
 elements cost no memory; the order of the elements, and with it who decides, is kept.
 """
+
 import numpy as np
 
 FEW = 20_000  # elements and points, which take less time than the import of the compiler
@@ -15,6 +16,7 @@ def pay(mesh, points):
     if len(points) + mesh.n_elements < FEW:
         return False
     from ..kernels import backend
+
     return backend.NAME == "numba"
 
 
@@ -35,10 +37,10 @@ class Strips:
         order = np.argsort(x, kind="stable")
         rows = -(-len(known) // self.size)
         heights = np.full(rows * self.size, np.inf)
-        heights[:len(known)] = y[order]
+        heights[: len(known)] = y[order]
         place = np.argsort(heights.reshape(rows, self.size), axis=1, kind="stable")
-        place = (place + self.size * np.arange(rows)[:, None]).ravel()[:len(known)]
-        self.edge = np.append(x[order[::self.size]], np.inf)
+        place = (place + self.size * np.arange(rows)[:, None]).ravel()[: len(known)]
+        self.edge = np.append(x[order[:: self.size]], np.inf)
         self.order = known[order[place]]
         self.x, self.y = x[order[place]], y[order[place]]
 
@@ -50,17 +52,26 @@ class Strips:
         """The same in the order of the strips."""
         from ..kernels import location
         from ..kernels.backend import readable, writable
+
         best = writable(np.full(len(self.order), -np.inf))
         found = writable(np.full(len(self.order), -1, dtype=np.int32))
-        location.searched(*map(readable, (self.x, self.y)), self.size, *map(readable, (
-            self.edge, self._neighbouring(), self.mesh.elements, self.mesh.nodes)), self.unit, best, found)
+        location.searched(
+            *map(readable, (self.x, self.y)),
+            self.size,
+            *map(readable, (self.edge, self._neighbouring(), self.mesh.elements, self.mesh.nodes)),
+            self.unit,
+            best,
+            found,
+        )
         return found
 
     def _neighbouring(self):
         """Numbers of the elements, those in a cell of a grid together: they share nodes and points."""
         low, high = self.mesh.box
-        place = [((column - a) * (CELLS / (b - a))).astype(np.uint16).clip(0, CELLS - 1)
-                 for column, a, b in zip(self.mesh.nodes.T, low, high, strict=True)]
+        place = [
+            ((column - a) * (CELLS / (b - a))).astype(np.uint16).clip(0, CELLS - 1)
+            for column, a, b in zip(self.mesh.nodes.T, low, high, strict=True)
+        ]
         cell = place[0] * CELLS + place[1]  # 16 bits, which are sorted fastest
         return np.argsort(cell[self.mesh.elements[:, 0]], kind="stable")
 
@@ -68,9 +79,16 @@ class Strips:
         """Values at the points of the interpolant of nodal values, NaN outside the domain."""
         from ..kernels import location
         from ..kernels.backend import readable, writable
+
         value = writable(np.full(len(self.order), np.nan))
-        location.interpolated(*map(readable, (self.x, self.y)), self._search(), readable(self.mesh.elements),
-                              readable(self.mesh.nodes), readable(values), value)
+        location.interpolated(
+            *map(readable, (self.x, self.y)),
+            self._search(),
+            readable(self.mesh.elements),
+            readable(self.mesh.nodes),
+            readable(values),
+            value,
+        )
         return self._in_order_of_points(value, np.nan)
 
     def _in_order_of_points(self, of_strips, elsewhere):

@@ -4,6 +4,7 @@ Loading numba takes some tenths of a second, in which plain Python does many a s
 Whether it pays cannot be known before the last job; who rents skis until the rents have
 reached the price, and then buys, never pays more than twice what was necessary.
 """
+
 import os
 import sys
 from importlib import import_module

@@ -5,6 +5,7 @@ The environment variable ``MESHLIB_BACKEND`` chooses: ``numba``, ``python``, or
 Kernels are written once, with flat arrays and scalars: numba compiles them for NumPy
 arrays, plain Python runs them on lists, which it indexes several times faster than arrays.
 """
+
 import os
 
 from meshlib.checks import choice

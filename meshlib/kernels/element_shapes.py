@@ -1,5 +1,7 @@
 """What several kernels ask of an element: whether it is flat, and its gradient."""
+
 from meshlib.geometry.predicates import FLAT, ROUNDOFF, ULPS
+
 from .backend import compiled
 
 INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
@@ -16,8 +18,13 @@ def is_flat(node, a, b, c, unit):
     longest = max(abs(ux), abs(uy), abs(vx), abs(vy))
     bound = FLAT * (abs(left) + abs(right)) + MOVED * unit * longest
     return not left - right > CLEARLY * bound and is_flat_in_units(
-        node[2 * a] / unit, node[2 * a + 1] / unit, node[2 * b] / unit, node[2 * b + 1] / unit,
-        node[2 * c] / unit, node[2 * c + 1] / unit)
+        node[2 * a] / unit,
+        node[2 * a + 1] / unit,
+        node[2 * b] / unit,
+        node[2 * b + 1] / unit,
+        node[2 * c] / unit,
+        node[2 * c + 1] / unit,
+    )
 
 
 @compiled

@@ -2,6 +2,7 @@ r"""What the procedure needs of a mesh before its first swap, in passes over fla
 
 Half-edge h = 3 t + k is the side of element t opposite its node k, as in `lop`.
 """
+
 from .backend import compiled
 from .costs import from_smallest, plane, sides
 from .lop import after, before, set_face

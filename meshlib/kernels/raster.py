@@ -11,6 +11,7 @@ A row of the grid cuts an element in the points between two of its sides::
 
 A point on a side is set by both neighbours, to the same value but for rounding.
 """
+
 from math import floor, inf
 
 from .backend import compiled

@@ -3,6 +3,7 @@
 A point is three numbers x, y, u.  The four are the ends of an edge and the nodes to its
 left and right, or the corners of an element and the first of them once more.
 """
+
 from functools import lru_cache
 from math import sqrt
 
@@ -22,6 +23,7 @@ def pointer(maker, on):
 def _of_four_points(cost):
     def padded(ax, ay, au, bx, by, bu, cx, cy, cu, _x, _y, _u):
         return cost(ax, ay, au, bx, by, bu, cx, cy, cu)
+
     return padded
 
 
@@ -36,6 +38,7 @@ def error_of(function, points, weights):
             miss = u(p * ax + q * bx + r * cx, p * ay + q * by + r * cy) - (p * au + q * bu + r * cu)
             total += weights[k] * miss * miss
         return sqrt(abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 2 * total)
+
     return error
 
 

@@ -1,4 +1,5 @@
 """The straight sides of a domain, between the corners where its boundary turns."""
+
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -40,7 +41,7 @@ class Sides:
     def snapped(self, points, side):
         """Points moved onto their sides, where rounding has left them beside."""
         start, along = self.ends[side, 0], self.ends[side, 1] - self.ends[side, 0]
-        share = ((points - start) * along).sum(axis=1) / (along ** 2).sum(axis=1)
+        share = ((points - start) * along).sum(axis=1) / (along**2).sum(axis=1)
         return start + share[:, None] * along
 
 

@@ -3,6 +3,7 @@
 Boxes that follow each other along Morton's curve lie near each other; each FAN of them
 get a bounding box, and so do each FAN of those, up to a few at the top.
 """
+
 from functools import reduce
 
 import numpy as np
@@ -25,8 +26,10 @@ class BoxTree:
         self.levels = [level]
         while level[0].shape[1] > TOP:
             starts = np.arange(0, level[0].shape[1], FAN)
-            level = [end.reduceat(side, starts, axis=1)
-                     for end, side in zip((np.minimum, np.maximum), level, strict=True)]
+            level = [
+                end.reduceat(side, starts, axis=1)
+                for end, side in zip((np.minimum, np.maximum), level, strict=True)
+            ]
             self.levels.insert(0, level)
 
     def touching(self, low, high, misses=None):
@@ -80,7 +83,7 @@ def _touching(rows, boxes, low, high, box_low, box_high):
 def _along_curve(points):
     """Places along Morton's curve."""
     low, size = points.min(axis=0), np.ptp(points, axis=0)
-    cells = (points - low) / np.where(size > 0, size, 1) * (2 ** BITS - 1)
+    cells = (points - low) / np.where(size > 0, size, 1) * (2**BITS - 1)
     return morton.places(*cells.astype(np.int64).T, n_bytes=4)
 
 

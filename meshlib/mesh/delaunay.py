@@ -1,11 +1,12 @@
 """Delaunay meshes, the same on every platform (section 2.3.2)."""
+
 import numpy as np
 
 from .. import checks
 from ..errors import MeshError
+from ..geometry.predicates import incircle, nearly_flat, orientation
 from ..support.independent import independent
 from .mesh import Mesh
-from ..geometry.predicates import incircle, nearly_flat, orientation
 from .topology import canonical, quadrilaterals
 
 EDGES_AT_ONCE = 16_384
@@ -58,20 +59,23 @@ def delaunay(nodes):
     elements = _flipped_to_delaunay(nodes, _without_flat(nodes, _qhull(nodes)))
     unused = checks.unnamed(elements, len(nodes))
     if unused.size:
-        raise MeshError("unused node", f"node {unused[0]} is too close to others to be meshed; "
-                        "remove it or move it", unused)
+        raise MeshError(
+            "unused node",
+            f"node {unused[0]} is too close to others to be meshed; remove it or move it",
+            unused,
+        )
     return Mesh._trusted(nodes, canonical(elements))
 
 
 def _refuse_collinear(nodes):
     far = np.abs(nodes - nodes[0]).max(axis=1).argmax()
     if not orientation(nodes[0], nodes[far], nodes).any():
-        raise MeshError("collinear", f"all {len(nodes)} nodes lie on one line; "
-                        "add a node off the line")
+        raise MeshError("collinear", f"all {len(nodes)} nodes lie on one line; add a node off the line")
 
 
 def _qhull(nodes):
     from scipy.spatial import Delaunay, QhullError
+
     centred = nodes - nodes.mean(axis=0)  # coordinates far from 0 cost digits
     try:
         return Delaunay(centred / np.abs(centred).max()).simplices
@@ -99,7 +103,7 @@ def _without_flat(nodes, elements):
 
 def _longest_edges(mesh, some):
     sides = np.roll(mesh.corners[some], -1, axis=1) - np.roll(mesh.corners[some], 1, axis=1)
-    return mesh.element_edges[some, (sides ** 2).sum(axis=2).argmax(axis=1)]
+    return mesh.element_edges[some, (sides**2).sum(axis=2).argmax(axis=1)]
 
 
 def _unfolded(mesh, edges):
@@ -112,8 +116,9 @@ def _unfolded(mesh, edges):
 
 
 def _nearly_collinear():
-    return MeshError("collinear", "the nodes are too nearly on one line to be meshed; "
-                     "scale the flat direction up first")
+    return MeshError(
+        "collinear", "the nodes are too nearly on one line to be meshed; scale the flat direction up first"
+    )
 
 
 def _flipped_to_delaunay(nodes, elements):
@@ -153,7 +158,7 @@ def _swapped(mesh, quads, pairs):
 
 def _worse(mesh, edges):
     """Those of the edges that are to be swapped, looked at in parts that stay in the processor's memory."""
-    parts = (edges[k:k + EDGES_AT_ONCE] for k in range(0, len(edges), EDGES_AT_ONCE))
+    parts = (edges[k : k + EDGES_AT_ONCE] for k in range(0, len(edges), EDGES_AT_ONCE))
     return np.concatenate([part[_is_worse(mesh.nodes, *quadrilaterals(mesh, part)[0].T)] for part in parts])
 
 

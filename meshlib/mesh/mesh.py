@@ -1,4 +1,5 @@
 """The mesh: two arrays, from which everything else is derived."""
+
 from dataclasses import dataclass, field
 from functools import cached_property, wraps
 
@@ -10,12 +11,14 @@ from . import topology
 
 def _derived(method):
     """A property computed once, whose arrays are read-only."""
+
     @wraps(method)
     def computed(self):
         found = method(self)
         for array in found if isinstance(found, tuple) else (found,):
             array.flags.writeable = False
         return found
+
     return cached_property(computed)
 
 
@@ -83,8 +86,9 @@ class Mesh:
         >>> Mesh(nodes, [[0, 1, 2]]).equals(Mesh(nodes, [[2, 0, 1]]))
         True
         """
-        return (np.array_equal(self.nodes, other.nodes)
-                and np.array_equal(self._canonical_elements, other._canonical_elements))
+        return np.array_equal(self.nodes, other.nodes) and np.array_equal(
+            self._canonical_elements, other._canonical_elements
+        )
 
     @_derived
     def _canonical_elements(self):
@@ -202,6 +206,7 @@ class Mesh:
         if getattr(self, "_valid", False):
             return
         from . import validation
+
         validation.require(validation.index_range, self)
 
     def validate(self):
@@ -227,6 +232,7 @@ class Mesh:
         meshlib.errors.MeshError: orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse its nodes
         """
         from . import validation
+
         for clause in validation.CLAUSES:
             validation.require(clause, self)
         object.__setattr__(self, "_valid", True)

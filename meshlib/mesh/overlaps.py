@@ -17,10 +17,11 @@ place inside it or on a side, so that its box touches that of the edge.  This ho
 every set of elements no two of which lie on the same side of an edge; its boundary is the
 sides without a neighbour in the set.
 """
+
 import numpy as np
 
-from .box_tree import BoxTree, bounds, least
 from ..geometry.predicates import orientation
+from .box_tree import BoxTree, bounds, least
 from .topology import HEADS, TAILS
 
 
@@ -49,8 +50,10 @@ class _Elements:
 
     def near(self, some, tree):
         """Pairs of an element and a box of the tree that may have a point in common, in batches."""
+
         def misses(rows, low, high):
             return self._misses(some[rows], low, high)
+
         for rows, boxes in tree.touching(self.low[some], self.high[some], misses):
             yield some[rows], boxes
 
@@ -143,8 +146,10 @@ def common_area(first, second):
 
 def _cut(polygon, a, b):
     """The part of a polygon to the left of the line a -> b."""
+
     def height(p):
         return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+
     kept = []
     for p, q in zip(polygon, polygon[1:] + polygon[:1], strict=True):
         hp, hq = height(p), height(q)

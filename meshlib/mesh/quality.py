@@ -1,4 +1,5 @@
 """Geometric quality of a mesh: as the thesis's tables print it (section 4.5.2), and more (7.2)."""
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,15 +90,18 @@ def quality(mesh):
 def _measures(x, y):
     """The measures of elements with the coordinates x, y, (3, T) each, in the order of `Quality`."""
     angle, cross, squared_edges = _angles(x, y)
-    return (np.degrees(angle.max(axis=0)), np.abs(angle - EQUILATERAL).mean(axis=0),
-            2 * np.sqrt(3) * np.abs(cross[0]) / squared_edges.sum(axis=0))
+    return (
+        np.degrees(angle.max(axis=0)),
+        np.abs(angle - EQUILATERAL).mean(axis=0),
+        2 * np.sqrt(3) * np.abs(cross[0]) / squared_edges.sum(axis=0),
+    )
 
 
 def _angles(x, y):
     """Angles, cross products of the sides that meet there, and squares of one of them, (3, T) each."""
     ux, uy, vx, vy = x[NEXT] - x, y[NEXT] - y, x[PREVIOUS] - x, y[PREVIOUS] - y
     cross = ux * vy - uy * vx
-    return np.arctan2(np.abs(cross), ux * vx + uy * vy), cross, ux ** 2 + uy ** 2
+    return np.arctan2(np.abs(cross), ux * vx + uy * vy), cross, ux**2 + uy**2
 
 
 def uniformity(mesh):

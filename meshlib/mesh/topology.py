@@ -8,6 +8,7 @@ node k + 1 to node k + 2 (counted modulo 3), so the element lies to its left::
           / t \\
        k+1 --> k+2
 """
+
 import numpy as np
 
 from ..errors import MeshError
@@ -29,6 +30,7 @@ def edge_table(elements, n_nodes):
 
 def _kernels_are_compiled():
     from ..kernels import backend
+
     return backend.NAME == "numba"
 
 
@@ -36,12 +38,15 @@ def _edge_table_by_counting(elements, n_nodes):
     """The same by a kernel, which is faster where there is much to do."""
     from ..kernels import half_edges
     from ..kernels.backend import readable, writable
+
     size, number = elements.size, np.int32
     slot, edges = writable(np.empty(size, dtype=number)), writable(np.empty(2 * size, dtype=number))
     rooms = (writable(np.zeros(n, dtype=number)) for n in (n_nodes + 1, size, size))
     count = half_edges.edge_table(readable(elements), *rooms, slot, edges)
-    return (np.asarray(edges[:2 * count], dtype=number).reshape(-1, 2),
-            np.asarray(slot, dtype=number).reshape(-1, 3))
+    return (
+        np.asarray(edges[: 2 * count], dtype=number).reshape(-1, 2),
+        np.asarray(slot, dtype=number).reshape(-1, 3),
+    )
 
 
 def sides(elements, element_edges, n_edges):
@@ -75,8 +80,9 @@ def half_edges(element_edges, n_edges, kernels):
     side seen from the neighbour, or -1.  Flat, as kernels want them, and theirs to change.
     """
     slot, nowhere = kernels.backend.flat(element_edges), kernels.half_edges.NOWHERE
-    twin, half = (kernels.backend.writable(np.full(n, nowhere, dtype=np.int32))
-                  for n in (element_edges.size, n_edges))
+    twin, half = (
+        kernels.backend.writable(np.full(n, nowhere, dtype=np.int32)) for n in (element_edges.size, n_edges)
+    )
     kernels.half_edges.twins(slot, twin, half)
     return twin, slot, half
 
@@ -93,6 +99,7 @@ def grouped(numbers, n):
         starts = np.concatenate([[0], np.cumsum(np.bincount(numbers, minlength=n))])
         return np.argsort(numbers, kind="stable").astype(np.int32), starts.astype(np.int32)
     from scipy.sparse import csr_array  # transposes by counting
+
     row = np.arange(len(numbers), dtype=np.int32), numbers, [0, len(numbers)]
     column = csr_array(row, shape=(1, n)).tocsc()
     return column.data, column.indptr
@@ -160,7 +167,9 @@ def _refuse_shared_half_edges(elements, place):
         first, second = order[again[0]] // 3, order[again[0] + 1] // 3
         k = order[again[0]] % 3
         a, b = sorted(int(n) for n in (elements[first, TAILS[k]], elements[first, HEADS[k]]))
-        raise MeshError("overlap", f"elements {first} and {second} lie on the same side of edge "
-                        f"({a}, {b}); remove one or reverse its nodes", (first, second))
-
-
+        raise MeshError(
+            "overlap",
+            f"elements {first} and {second} lie on the same side of edge "
+            f"({a}, {b}); remove one or reverse its nodes",
+            (first, second),
+        )

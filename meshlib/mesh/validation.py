@@ -3,13 +3,14 @@
 A clause takes a mesh and returns nothing if it holds, else the message and the
 numbers of the offending items.  All decisions are exact.
 """
+
 import numpy as np
 
-from .box_tree import BoxTree, bounds, least
 from ..checks import distinct_nodes, unnamed
 from ..errors import MeshError
-from .overlaps import common_area, first_overlap
 from ..geometry.predicates import orientation
+from .box_tree import BoxTree, bounds, least
+from .overlaps import common_area, first_overlap
 
 MIDDLE = 1e-9  # how far, relatively, the node of a green pair may lie off the middle of an edge
 
@@ -26,8 +27,10 @@ def index_range(mesh):
     bad = np.argwhere((mesh.elements < 0) | (mesh.elements >= len(mesh.nodes)))
     if bad.size:
         t, k = bad[0]
-        return (f"element {t} names node {mesh.elements[t, k]}; "
-                f"nodes are numbered 0 to {len(mesh.nodes) - 1}", (t,))
+        return (
+            f"element {t} names node {mesh.elements[t, k]}; nodes are numbered 0 to {len(mesh.nodes) - 1}",
+            (t,),
+        )
 
 
 def duplicate(mesh):
@@ -48,8 +51,10 @@ def degenerate(mesh):
     flat = np.flatnonzero(_turns(mesh) == 0)
     if flat.size:
         t = flat[0]
-        return (f"element {t} with nodes {_tuple(mesh.elements[t])} has no area; "
-                "remove it or move a node", (t,))
+        return (
+            f"element {t} with nodes {_tuple(mesh.elements[t])} has no area; remove it or move a node",
+            (t,),
+        )
 
 
 def orientation_(mesh):
@@ -57,8 +62,7 @@ def orientation_(mesh):
     clockwise = np.flatnonzero(_turns(mesh) < 0)
     if clockwise.size:
         t = clockwise[0]
-        return (f"element {t} with nodes {_tuple(mesh.elements[t])} is clockwise; "
-                "reverse its nodes", (t,))
+        return (f"element {t} with nodes {_tuple(mesh.elements[t])} is clockwise; reverse its nodes", (t,))
 
 
 orientation_.__name__ = "orientation"
@@ -78,8 +82,10 @@ def overlap(mesh):
     if pair:
         i, j = sorted(pair)
         area = common_area(mesh.corners[i], mesh.corners[j])
-        return (f"elements {i} and {j} overlap by an area of {area:.6g}; "
-                "remove one or untangle their nodes", (i, j))
+        return (
+            f"elements {i} and {j} overlap by an area of {area:.6g}; remove one or untangle their nodes",
+            (i, j),
+        )
 
 
 def hanging_node(mesh):
@@ -93,8 +99,10 @@ def hanging_node(mesh):
         if inside.any():
             e, n = least(e[inside], n[inside])
             t = mesh.edge_elements[mesh.boundary][e, 0]
-            return (f"node {nodes[n]} hangs on edge {_tuple(edges[e])} of element {t}; "
-                    "split the element there", (nodes[n], t))
+            return (
+                f"node {nodes[n]} hangs on edge {_tuple(edges[e])} of element {t}; split the element there",
+                (nodes[n], t),
+            )
 
 
 def green_pair(mesh):

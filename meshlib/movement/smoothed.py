@@ -1,4 +1,5 @@
 """Node movement: edges as springs, patch by patch (sections 2.3.3, 2.4.3 and 3.3)."""
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -6,8 +7,8 @@ import numpy as np
 from .. import checks
 from ..errors import MeshError
 from ..kernels import for_work
-from ..mesh.mesh import Mesh
 from ..mesh.boundary_sides import sides_of
+from ..mesh.mesh import Mesh
 from ..mesh.topology import HEADS, TAILS, around_nodes, grouped
 from ..mesh.validation import halved
 
@@ -40,8 +41,9 @@ class Smoothing:
     refused: int
 
 
-def smoothed(mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=STILL, sliding=False,
-             halvings=None):
+def smoothed(
+    mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=STILL, sliding=False, halvings=None
+):
     """The mesh whose edges, taken as springs, are in equilibrium.
 
     Parameters
@@ -121,12 +123,17 @@ def _spring_constants(mesh, springs):
         return np.ones(mesh.n_edges)
     springs = checks.numeric(springs, "springs")
     if springs.shape != (mesh.n_edges,):
-        raise MeshError("shape", f"springs have shape {springs.shape}; give one constant "
-                        f"for each of the {mesh.n_edges} edges")
+        raise MeshError(
+            "shape",
+            f"springs have shape {springs.shape}; give one constant for each of the {mesh.n_edges} edges",
+        )
     bad = np.flatnonzero(~(np.isfinite(springs) & (springs >= 0)))
     if bad.size:
-        raise MeshError("range", f"the spring constant of edge {bad[0]} is {springs[bad[0]]}; "
-                        "give finite numbers of at least 0", bad)
+        raise MeshError(
+            "range",
+            f"the spring constant of edge {bad[0]} is {springs[bad[0]]}; give finite numbers of at least 0",
+            bad,
+        )
     return springs / (springs.max(initial=0) or 1)  # only ratios matter, and sums stay finite
 
 
@@ -158,8 +165,9 @@ class _Patches:
 
     def sweep(self, halvings, least):
         """Move every node once; the largest movement, and how many moves were refused."""
-        return self._kernels.springs.sweep(*self._springs, self._constants, *self._elements,
-                                           halvings, least, self._place)
+        return self._kernels.springs.sweep(
+            *self._springs, self._constants, *self._elements, halvings, least, self._place
+        )
 
     @property
     def nodes(self):

@@ -1,4 +1,5 @@
 """Spring constants that follow the data (section 2.4.3)."""
+
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -61,8 +62,10 @@ class DataSprings:
 
     def __post_init__(self):
         if not callable(self.function):
-            raise MeshError("type", f"the function is {self.function!r}; give u(x, y), for nodes move "
-                            "to where no value is known")
+            raise MeshError(
+                "type",
+                f"the function is {self.function!r}; give u(x, y), for nodes move to where no value is known",
+            )
         for name in ("first", "second", "power"):
             checks.number(getattr(self, name), name, 0, np.inf, "a finite number of at least 0")
 

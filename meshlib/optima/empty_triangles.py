@@ -1,4 +1,5 @@
 """All empty triangles of a set of nodes on the domain of a mesh, and how they fit together."""
+
 from functools import cached_property
 from itertools import combinations
 
@@ -110,6 +111,7 @@ class Candidates:
     def balance(self, n_pairs):
         """Matrix and right-hand side of the equations for triangles, and for pairs if there are any."""
         from scipy.sparse import csr_array, hstack, vstack
+
         edge, triangle, side = self._at_edges
         inner = self._inner
         shape = (len(self.edges), len(self))
@@ -125,6 +127,7 @@ class Candidates:
     def _pair_rows(self):
         """One row for each triangle at an inner edge: its pairs there, and the triangle itself."""
         from scipy.sparse import csr_array
+
         edge, left, right = self.pairs
         keys = np.concatenate([edge * len(self) + left, edge * len(self) + right])
         inner_edge, triangle, _ = (v[self._inner[self._at_edges[0]]] for v in self._at_edges)

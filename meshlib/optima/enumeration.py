@@ -9,13 +9,14 @@ nodes on a simply connected domain to any other (Lawson 1972)::
        \ /              \|/
         d                d
 """
+
 import numpy as np
 
 from .. import checks
-from .empty_triangles import Candidates
 from ..errors import MeshError
-from ..swapping.plain import from_smallest
 from ..mesh.topology import canonical
+from ..swapping.plain import from_smallest
+from .empty_triangles import Candidates
 
 MOST_MESHES = 200_000
 

@@ -1,4 +1,5 @@
 """Many edge orders: which local optima the local optimisation procedure reaches."""
+
 import sys
 import warnings
 from dataclasses import dataclass, field
@@ -8,9 +9,9 @@ import numpy as np
 from .. import checks
 from ..errors import missing_extra
 from ..mesh.mesh import Mesh
-from ..swapping.swapped import prepared
 from ..mesh.topology import canonical
 from ..support.progress import bar
+from ..swapping.swapped import prepared
 
 ORDERS_AT_ONCE = 500  # how many a worker takes at most
 PARTS = 64  # into which fewer orders are cut, so that every worker gets some
@@ -76,8 +77,19 @@ def order_of(seed, number, n_edges):
     return np.random.default_rng([seed, number]).permutation(n_edges)
 
 
-def local_optima(mesh, values, criterion="jnd", norm=2, orders=100, seed=0, min_angle=None,
-                 min_area=None, tolerance=None, workers=None, progress=False):
+def local_optima(
+    mesh,
+    values,
+    criterion="jnd",
+    norm=2,
+    orders=100,
+    seed=0,
+    min_angle=None,
+    min_area=None,
+    tolerance=None,
+    workers=None,
+    progress=False,
+):
     """Run the local optimisation procedure with many random edge orders (section 6.3).
 
     Parameters

@@ -11,14 +11,15 @@ node.  With x_t = 1 for the elements chosen and y_lr = 1 for those that share an
 The balance at an edge says that crossing it does not change how often a point is
 covered, which is once at the boundary.
 """
+
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import checks, criteria
-from .empty_triangles import Candidates
 from ..errors import MeshError
 from ..mesh.mesh import Mesh
+from .empty_triangles import Candidates
 
 MOST_NODES, SECONDS = 120, 60.0
 LARGEST_COST = 1e6  # given to the solver, whose tolerances are absolute
@@ -94,7 +95,7 @@ def optimal(mesh, values, criterion="jnd", norm=2, seconds=SECONDS):
         raise MeshError("range", f"the mesh has {mesh.n_nodes} nodes; give at most {MOST_NODES}")
     candidates = Candidates(mesh)
     costs, matrix, right = _model(candidates, values, criterion, norm)
-    chosen = _solved(costs, matrix, right, seconds)[:len(candidates)]
+    chosen = _solved(costs, matrix, right, seconds)[: len(candidates)]
     best = Mesh(mesh.nodes, candidates.triangles[chosen > 0.5]).validate()
     cost = float(np.linalg.norm(criterion.costs(best, values), norm))
     return Optimal(best, cost, min(cost, _bound(costs, matrix, right) ** (1 / norm)))
@@ -117,10 +118,16 @@ def _model(candidates, values, criterion, norm):
 def _solved(costs, matrix, right, seconds):
     """The optimal choice, rounded."""
     from scipy.optimize import Bounds, LinearConstraint, milp
+
     scale = LARGEST_COST / (costs.max() or 1.0)
     options = {"mip_rel_gap": 0, "time_limit": float(seconds)}
-    found = milp(scale * costs, integrality=np.ones(len(costs)), bounds=Bounds(0, 1), options=options,
-                 constraints=LinearConstraint(matrix, right, right))
+    found = milp(
+        scale * costs,
+        integrality=np.ones(len(costs)),
+        bounds=Bounds(0, 1),
+        options=options,
+        constraints=LinearConstraint(matrix, right, right),
+    )
     if not found.success:
         raise MeshError("solver", f"no proof within {seconds:g} seconds; give fewer nodes or more seconds")
     return np.rint(found.x)
@@ -129,6 +136,7 @@ def _solved(costs, matrix, right, seconds):
 def _bound(costs, matrix, right):
     """The best lower bound m . right + sum of min(0, costs - m A) over some multipliers m."""
     from scipy.optimize import linprog
+
     best, unit = 0.0, costs.max() or 1.0
     for scale in SCALES:
         relaxed = linprog(scale / unit * costs, A_eq=matrix, b_eq=right, bounds=(0, None))

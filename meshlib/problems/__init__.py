@@ -12,6 +12,7 @@ name              nodes  what it is
 ``"81"``             81  a 9 x 9 lattice, from four nodes by three refinements
 ================  =====  ==========================================================
 """
+
 from .analytic_functions import TestFunction, functions
 from .start_meshes import DD1, SR1, SR2, SR3, mesh, names, nodes, order
 

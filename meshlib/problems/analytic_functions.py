@@ -1,4 +1,5 @@
 """Test functions u(x, y) by name, each with its formula, source and peculiarities."""
+
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -68,10 +69,12 @@ def _dd1(x, y):
 
 def _franke(x, y):
     p, q = 9 * x, 9 * y
-    return (0.75 * np.exp(-((p - 2) ** 2 + (q - 2) ** 2) / 4)
-            + 0.75 * np.exp(-(p + 1) ** 2 / 49 - (q + 1) / 10)
-            + 0.5 * np.exp(-((p - 7) ** 2 + (q - 3) ** 2) / 4)
-            - 0.2 * np.exp(-(p - 4) ** 2 - (q - 7) ** 2))
+    return (
+        0.75 * np.exp(-((p - 2) ** 2 + (q - 2) ** 2) / 4)
+        + 0.75 * np.exp(-((p + 1) ** 2) / 49 - (q + 1) / 10)
+        + 0.5 * np.exp(-((p - 7) ** 2 + (q - 3) ** 2) / 4)
+        - 0.2 * np.exp(-((p - 4) ** 2) - (q - 7) ** 2)
+    )
 
 
 def _saddle(x, y):
@@ -110,21 +113,41 @@ class Functions(dict):
         return choice(name, tuple(self), "function")
 
 
-functions = Functions((f.name, f) for f in (
-    TestFunction("SR1", _sr1, r"\tfrac19(\tanh(9y-9x)+1)", THESIS,
-                 "Franke's cliff; the factor is 1/9, that of SR2 is 1/2"),
-    TestFunction("SR2", _sr2, r"\tfrac12(\tanh(9y+9x-9)+1)", THESIS),
-    TestFunction("SR3", _sr3, r"1+\tanh(-3g),\ g=0.595576(y+3.79762)^2-x-10", THESIS),
-    TestFunction("DD1", _dd1, r"\text{ramp } 2(y-\phi),\ \text{spike } \tfrac12(1+\cos 4\pi r)", THESIS,
-                 "continuous, with jumps in its gradient; the cases are read from top to bottom"),
-    TestFunction("franke", _franke, r"\text{four exponentials}", FRANKE, "defined on the unit square"),
-    TestFunction("cliff", _sr1, r"\tfrac19(\tanh(9y-9x)+1)", FRANKE, "the same function as SR1"),
-    TestFunction("saddle", _saddle, r"(1.25+\cos 5.4y)/(6+6(3x-1)^2)", FRANKE),
-    TestFunction("gentle", _gentle, r"\tfrac13 e^{-81/16((x-1/2)^2+(y-1/2)^2)}", FRANKE),
-    TestFunction("steep", _steep, r"\tfrac13 e^{-81/4((x-1/2)^2+(y-1/2)^2)}", FRANKE),
-    TestFunction("sphere", _sphere, r"\tfrac19\sqrt{64-81((x-\frac12)^2+(y-\frac12)^2)}-\tfrac12", FRANKE),
-    TestFunction("convex", lambda x, y: x ** 2 + y ** 2, "x^2+y^2", "quadratic, det H > 0",
-                 "Delaunay is its best mesh on given nodes"),
-    TestFunction("hyperbolic", lambda x, y: x ** 2 - y ** 2, "x^2-y^2", "quadratic, det H < 0"),
-    TestFunction("product", lambda x, y: x * y, "xy", "quadratic, det H < 0"),
-))
+functions = Functions(
+    (f.name, f)
+    for f in (
+        TestFunction(
+            "SR1",
+            _sr1,
+            r"\tfrac19(\tanh(9y-9x)+1)",
+            THESIS,
+            "Franke's cliff; the factor is 1/9, that of SR2 is 1/2",
+        ),
+        TestFunction("SR2", _sr2, r"\tfrac12(\tanh(9y+9x-9)+1)", THESIS),
+        TestFunction("SR3", _sr3, r"1+\tanh(-3g),\ g=0.595576(y+3.79762)^2-x-10", THESIS),
+        TestFunction(
+            "DD1",
+            _dd1,
+            r"\text{ramp } 2(y-\phi),\ \text{spike } \tfrac12(1+\cos 4\pi r)",
+            THESIS,
+            "continuous, with jumps in its gradient; the cases are read from top to bottom",
+        ),
+        TestFunction("franke", _franke, r"\text{four exponentials}", FRANKE, "defined on the unit square"),
+        TestFunction("cliff", _sr1, r"\tfrac19(\tanh(9y-9x)+1)", FRANKE, "the same function as SR1"),
+        TestFunction("saddle", _saddle, r"(1.25+\cos 5.4y)/(6+6(3x-1)^2)", FRANKE),
+        TestFunction("gentle", _gentle, r"\tfrac13 e^{-81/16((x-1/2)^2+(y-1/2)^2)}", FRANKE),
+        TestFunction("steep", _steep, r"\tfrac13 e^{-81/4((x-1/2)^2+(y-1/2)^2)}", FRANKE),
+        TestFunction(
+            "sphere", _sphere, r"\tfrac19\sqrt{64-81((x-\frac12)^2+(y-\frac12)^2)}-\tfrac12", FRANKE
+        ),
+        TestFunction(
+            "convex",
+            lambda x, y: x**2 + y**2,
+            "x^2+y^2",
+            "quadratic, det H > 0",
+            "Delaunay is its best mesh on given nodes",
+        ),
+        TestFunction("hyperbolic", lambda x, y: x**2 - y**2, "x^2-y^2", "quadratic, det H < 0"),
+        TestFunction("product", lambda x, y: x * y, "xy", "quadratic, det H < 0"),
+    )
+)

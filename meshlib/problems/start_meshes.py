@@ -1,4 +1,5 @@
 """Node sets and start meshes by name (sections 4.1 and 4.3)."""
+
 from functools import cache
 from importlib.resources import files
 
@@ -6,8 +7,8 @@ import numpy as np
 
 from .. import checks
 from ..mesh.delaunay import delaunay
-from .analytic_functions import TestFunction, functions
 from ..mesh.mesh import Mesh
+from .analytic_functions import TestFunction, functions
 
 __all__ = ["DD1", "SR1", "SR2", "SR3", "TestFunction", "functions", "mesh", "names", "nodes", "order"]
 
@@ -168,8 +169,10 @@ def split_in_four(nodes, edges, elements):
     middle = len(nodes) + np.arange(len(edges))
     number = {frozenset(edge): m for edge, m in zip(edges.tolist(), middle.tolist(), strict=True)}
     a, b, c = elements.T
-    ab, bc, ca = ([number[frozenset(pair)] for pair in np.column_stack(ends).tolist()]
-                  for ends in ((a, b), (b, c), (c, a)))
+    ab, bc, ca = (
+        [number[frozenset(pair)] for pair in np.column_stack(ends).tolist()]
+        for ends in ((a, b), (b, c), (c, a))
+    )
     halves = np.stack([edges[:, 0], middle, middle, edges[:, 1]], axis=1).reshape(-1, 2)
     inner = np.stack([ab, ca, ab, bc, bc, ca], axis=1).reshape(-1, 2)
     children = np.stack([a, ab, ca, b, bc, ab, c, ca, bc, ab, bc, ca], axis=1).reshape(-1, 3)

@@ -1,4 +1,5 @@
 """Which elements to refine (sections 3.2.1 to 3.2.3 and 6.2)."""
+
 import numpy as np
 
 from .. import checks, criteria
@@ -126,7 +127,7 @@ def _worst(costs, target, ties, order):
     chosen = costs > high
     last = (costs >= low) & ~chosen
     ranked = np.flatnonzero(last) if order is None else order[last[order]]
-    chosen[ranked[:target - np.count_nonzero(chosen)]] = True
+    chosen[ranked[: target - np.count_nonzero(chosen)]] = True
     return np.flatnonzero(chosen)
 
 

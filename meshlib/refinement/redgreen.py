@@ -1,4 +1,5 @@
 """Red-green refinement (section 3.2.4), on numbers of edges instead of pairs of nodes."""
+
 import numpy as np
 
 from ..mesh.topology import HEADS, TAILS, unique
@@ -43,7 +44,7 @@ class Table:
             if self.size > len(column):
                 column = np.concatenate([column, np.empty((self.size, *column.shape[1:]), column.dtype)])
                 setattr(self, name, column)
-            column[begin:self.size] = rows
+            column[begin : self.size] = rows
         return np.arange(begin, self.size, dtype=np.int32)
 
 
@@ -68,10 +69,15 @@ class Forest:
     def __init__(self, mesh):
         numbers = np.arange(mesh.n_elements, dtype=np.int32)
         self.n_nodes, self.bisected, self.final = mesh.n_nodes, [mesh.edges[:0]], []
-        self.leaves = Table(nodes=mesh.elements, sides=mesh.element_edges,
-                            parent=numbers, gone=np.zeros(len(numbers), dtype=bool))
-        self.edges = Table(ends=mesh.edges, middle=np.full(mesh.n_edges, -1, dtype=np.int32),
-                           beside=mesh.edge_elements)
+        self.leaves = Table(
+            nodes=mesh.elements,
+            sides=mesh.element_edges,
+            parent=numbers,
+            gone=np.zeros(len(numbers), dtype=bool),
+        )
+        self.edges = Table(
+            ends=mesh.edges, middle=np.full(mesh.n_edges, -1, dtype=np.int32), beside=mesh.edge_elements
+        )
         self._owner, self._linked = numbers, len(mesh.green) > 0
         if self._linked:
             self._put_together(mesh, *mesh.green.T)
@@ -116,8 +122,9 @@ class Forest:
         self.n_nodes += len(new)
         self.bisected.append(ends)
         if self._linked:
-            halves = self._new_edges(np.column_stack([ends.ravel(), np.repeat(middle, 2)]),
-                                     np.repeat(edges.beside[new], 2, axis=0))
+            halves = self._new_edges(
+                np.column_stack([ends.ravel(), np.repeat(middle, 2)]), np.repeat(edges.beside[new], 2, axis=0)
+            )
             edges.halves[new] = halves.reshape(-1, 2)
         return new
 
@@ -174,7 +181,7 @@ class Forest:
 
     def closed(self):
         """Leaves with one hanging node bisected; elements, parents and green pairs."""
-        leaves, numbers = self.leaves, np.flatnonzero(~self.leaves.gone[:self.leaves.size])
+        leaves, numbers = self.leaves, np.flatnonzero(~self.leaves.gone[: self.leaves.size])
         middle = self._middles(numbers)
         hanging = middle >= 0
         open_ = hanging[:, 0] | hanging[:, 1] | hanging[:, 2]

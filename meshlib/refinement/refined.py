@@ -1,4 +1,5 @@
 """Mesh refinement: marking the worst elements and splitting them (section 3.2)."""
+
 from dataclasses import dataclass
 from functools import reduce
 
@@ -6,9 +7,9 @@ import numpy as np
 
 from .. import checks
 from ..errors import MeshError
-from .marking import marked as marked_elements
-from ..mesh.mesh import Mesh
 from ..geometry.predicates import orientation
+from ..mesh.mesh import Mesh
+from .marking import marked as marked_elements
 from .splitting import SPLITS
 
 
@@ -36,8 +37,9 @@ class Refinement:
     values: np.ndarray
 
 
-def refined(mesh, values, criterion="abn", fraction=0.2, mark="element", split="red-green",
-            ties="first", order=None):
+def refined(
+    mesh, values, criterion="abn", fraction=0.2, mark="element", split="red-green", ties="first", order=None
+):
     """The mesh with its worst elements split into smaller ones.
 
     Parameters

@@ -1,8 +1,9 @@
 """Splits of marked elements into smaller ones (sections 3.2.4 to 3.2.6)."""
+
 import numpy as np
 
-from .redgreen import red_green
 from ..mesh.topology import HEADS, TAILS, unique
+from .redgreen import red_green
 
 LONGEST = 1e-12  # squared lengths this close, relatively, count as equal
 
@@ -61,11 +62,13 @@ def _longest(mesh):
     """Which node is opposite the longest edge; among equal ones the smallest edge number."""
     p, q = mesh.edges.T
     dx, dy = (v.take(q) - v.take(p) for v in np.ascontiguousarray(mesh.nodes.T))
-    squared = dx ** 2 + dy ** 2
+    squared = dx**2 + dy**2
     first, second, third = (squared[column] for column in mesh.element_edges.T)
     least = np.maximum(np.maximum(first, second), third) * (1 - LONGEST)
-    ranks = [np.where(long >= least, column, mesh.n_edges)
-             for long, column in zip((first, second, third), mesh.element_edges.T, strict=True)]
+    ranks = [
+        np.where(long >= least, column, mesh.n_edges)
+        for long, column in zip((first, second, third), mesh.element_edges.T, strict=True)
+    ]
     return np.where(ranks[0] < np.minimum(ranks[1], ranks[2]), 0, np.where(ranks[1] < ranks[2], 1, 2))
 
 

@@ -1,4 +1,5 @@
 """Which of many changes can be made at once: the best, none of which touches what a better one does."""
+
 import numpy as np
 
 BITS = 26  # of a number that is compared

@@ -1,4 +1,5 @@
 """Watching a long run: a bar that says how far it is, and an interrupt that keeps what is done."""
+
 import signal
 import threading
 

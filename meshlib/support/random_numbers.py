@@ -1,7 +1,8 @@
 """Random numbers that are the same on every platform and with every version of NumPy."""
+
 import numpy as np
 
-SHIFT, UNIT = 11, 2.0 ** -53  # 64 random bits to the 53 of a float64 in [0, 1)
+SHIFT, UNIT = 11, 2.0**-53  # 64 random bits to the 53 of a float64 in [0, 1)
 
 
 class Draws:

@@ -1,11 +1,12 @@
 """Nodes and elements along a space-filling curve, so that neighbours in the plane are near in memory."""
+
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from ..geometry import morton
 from ..errors import MeshError, not_a_cost
+from ..geometry import morton
 from ..kernels import for_work
 from ..mesh.mesh import Mesh
 from .procedure import Procedure
@@ -65,8 +66,10 @@ def _renamed(kernel, elements, row, number):
 
 def _places(mesh):
     """The cell of each node, counted along the curve."""
-    column, row = (((v - low) * (SIDE / (high - low))).astype(np.int16).clip(max=SIDE - 1)
-                   for v, low, high in zip(mesh.nodes.T, *mesh.box, strict=True))
+    column, row = (
+        ((v - low) * (SIDE / (high - low))).astype(np.int16).clip(max=SIDE - 1)
+        for v, low, high in zip(mesh.nodes.T, *mesh.box, strict=True)
+    )
     return morton.places(column, row).astype(np.uint16)
 
 
@@ -82,8 +85,9 @@ class AlongCurve:
 
     @cached_property
     def _procedure(self):
-        return replace(self.given, mesh=self._curve.mesh, values=self.given.values[self._curve.nodes],
-                       once=True)
+        return replace(
+            self.given, mesh=self._curve.mesh, values=self.given.values[self._curve.nodes], once=True
+        )
 
     def run(self, order, trace=False, schedule="queue", watch=None):
         """As `Procedure.run`, with the edges in their order along the curve and not in the given one."""

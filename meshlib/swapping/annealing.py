@@ -1,11 +1,12 @@
 """Beyond the local optimum: simulated annealing over swaps (Schumaker 1993)."""
+
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .. import checks
-from ..support.random_numbers import Draws
 from ..mesh.mesh import Mesh
+from ..support.random_numbers import Draws
 from .swapped import prepared
 from .walk import walk_from
 
@@ -44,8 +45,18 @@ class Annealing:
     seed: int
 
 
-def annealed(mesh, values, criterion="jnd", norm=2, seed=0, levels=LEVELS, tries=TRIES, min_angle=None,
-             min_area=None, tolerance=None):
+def annealed(
+    mesh,
+    values,
+    criterion="jnd",
+    norm=2,
+    seed=0,
+    levels=LEVELS,
+    tries=TRIES,
+    min_angle=None,
+    min_area=None,
+    tolerance=None,
+):
     """A mesh of low cost, by swaps of which some raise it, ever fewer as it gets colder.
 
     Parameters

@@ -4,6 +4,7 @@ The mesh is a dictionary from directed edges to the node on their left.  Costs c
 from the vectorised definitions in `meshlib.criteria`, so that nothing but the
 algorithm is shared with the compiled form, whose oracle this is.
 """
+
 from collections import deque
 
 import numpy as np
@@ -45,8 +46,9 @@ class State:
     """A mesh as a dictionary, and what has been done to it."""
 
     def __init__(self, mesh, values, criterion, norm, order, limits, tolerance):
-        self.apex = {(a, b): c for t in mesh.elements.tolist()
-                     for a, b, c in (t, t[1:] + t[:1], t[2:] + t[:2])}
+        self.apex = {
+            (a, b): c for t in mesh.elements.tolist() for a, b, c in (t, t[1:] + t[:1], t[2:] + t[:2])
+        }
         self.slots, self.order = [tuple(e) for e in mesh.edges.tolist()], order.tolist()
         self.nodes, self.points = mesh.nodes, np.column_stack([mesh.nodes, values])
         self.cost, self.norm, self.limits, self.tolerance = criterion.cost, norm, limits, tolerance
@@ -63,8 +65,10 @@ class State:
         if quad is None or _is_refused(self.nodes, quad, self.limits):
             return False
         a, b, c, d = quad
-        old, new = (norms.measure(_finite(h, a, b), self.norm, self.tolerance[1])
-                    for h in self.local_cost(self.cost, self.points, self.apex, quad))
+        old, new = (
+            norms.measure(_finite(h, a, b), self.norm, self.tolerance[1])
+            for h in self.local_cost(self.cost, self.points, self.apex, quad)
+        )
         accepted = norms.is_below(new, old, self.norm, *self.tolerance)
         self.tried.append((sweep, e, a, b, c, d, accepted, *_deciding(old, new)))
         if accepted:
@@ -141,8 +145,10 @@ def _edge_costs(cost, points, apex, quad):
     beyond = [apex.get((q, p)) for p, q in sides]
     old = [(a, b, c, d)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (a, b, b, a), beyond, strict=True)]
     new = [(c, d, b, a)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (d, d, c, c), beyond, strict=True)]
-    return tuple(cost(*np.moveaxis(points[[_canonical(*s) for s in stencils if s[3] is not None]], 1, 0))
-                 for stencils in (old, new))
+    return tuple(
+        cost(*np.moveaxis(points[[_canonical(*s) for s in stencils if s[3] is not None]], 1, 0))
+        for stencils in (old, new)
+    )
 
 
 def _canonical(p, q, left, right):
@@ -153,8 +159,10 @@ def _canonical(p, q, left, right):
 def _element_costs(cost, points, apex, quad):
     """Costs of the two elements at a-b, and of those at c-d instead."""
     a, b, c, d = quad
-    return tuple(cost(*np.moveaxis(points[[from_smallest(*t) for t in pair]], 1, 0))
-                 for pair in ([(c, a, b), (d, b, a)], [(c, a, d), (d, b, c)]))
+    return tuple(
+        cost(*np.moveaxis(points[[from_smallest(*t) for t in pair]], 1, 0))
+        for pair in ([(c, a, b), (d, b, a)], [(c, a, d), (d, b, c)])
+    )
 
 
 def _node_costs(cost, points, apex, quad):

@@ -2,21 +2,32 @@
 
 Data go from a mesh to flat arrays, through a kernel, and back to elements.
 """
+
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from ..criteria.norms import norm_of
 from ..criteria.registry import Criterion
 from ..errors import not_a_cost
 from ..kernels import codes, for_work
 from ..mesh.mesh import Mesh
-from ..criteria.norms import norm_of
 from ..mesh.topology import from_smallest, half_edges
 
-TRACE = np.dtype([("sweep", np.int32), ("edge", np.int32), ("a", np.int32), ("b", np.int32),
-                  ("c", np.int32), ("d", np.int32), ("accepted", bool),
-                  ("old", np.float64), ("new", np.float64)])
+TRACE = np.dtype(
+    [
+        ("sweep", np.int32),
+        ("edge", np.int32),
+        ("a", np.int32),
+        ("b", np.int32),
+        ("c", np.int32),
+        ("d", np.int32),
+        ("accepted", bool),
+        ("old", np.float64),
+        ("new", np.float64),
+    ]
+)
 NORM_CODES = {1: codes.SUM, 2: codes.SQUARES, "max": codes.MAXIMUM}
 STEPS = 25  # of plain Python, from the first look at an edge to the last
 UNLIMITED = np.iinfo(np.int64).max // 2
@@ -104,8 +115,16 @@ class Procedure:
     def arguments(self, kernels):
         """A fresh copy of the state, and all that a kernel wants after order, tally and limit."""
         points, state = self._prepared(kernels)
-        return state, (self.criterion.code, self.criterion.pointer, NORM_CODES[self.norm], *self.tolerance,
-                       self.limits.angle, 2 * self.limits.area, points, *state)
+        return state, (
+            self.criterion.code,
+            self.criterion.pointer,
+            NORM_CODES[self.norm],
+            *self.tolerance,
+            self.limits.angle,
+            2 * self.limits.area,
+            points,
+            *state,
+        )
 
     def _traced(self, kernels, order, tally, state, arguments):
         rows, logs, done = [], logs_for(len(order), kernels), False
@@ -122,9 +141,11 @@ class Procedure:
 
     def _plain(self, order, trace, schedule, watch):
         from . import plain
+
         procedure = {"sweep": plain.swapped, "queue": plain.drained}[schedule]
         elements, swaps, sweeps, tried = procedure(
-            self.mesh, self.values, self.criterion, self.norm, order, self.limits, self.tolerance)
+            self.mesh, self.values, self.criterion, self.norm, order, self.limits, self.tolerance
+        )
         return Outcome(_in_rows(elements, self.mesh), swaps, sweeps, len(tried), np.array(tried, dtype=TRACE))
 
     @cached_property
@@ -193,10 +214,10 @@ def logs_for(rows, kernels):
 def _rows(sweep, log, costs, count):
     rows = np.zeros(count, dtype=TRACE)
     rows["sweep"] = sweep
-    table = np.reshape(log[:6 * count], (-1, 6))
+    table = np.reshape(log[: 6 * count], (-1, 6))
     for name, column in zip(("edge", "a", "b", "c", "d", "accepted"), table.T, strict=True):
         rows[name] = column
-    rows["old"], rows["new"] = np.reshape(costs[:2 * count], (-1, 2)).T
+    rows["old"], rows["new"] = np.reshape(costs[: 2 * count], (-1, 2)).T
     return rows
 
 

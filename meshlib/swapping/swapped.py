@@ -1,4 +1,5 @@
 """Edge swapping: the local optimisation procedure (section 3.1)."""
+
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -8,9 +9,9 @@ from .. import checks, criteria
 from ..criteria import norms
 from ..errors import Interrupted
 from ..mesh.mesh import Mesh
-from .procedure import Limits, Procedure
-from .along_curve import AlongCurve
 from ..support.progress import Watch
+from .along_curve import AlongCurve
+from .procedure import Limits, Procedure
 
 SCHEDULES = ("sweep", "queue")
 LARGEST_MIN_ANGLE = 60.0
@@ -59,11 +60,21 @@ class Swapping:
         differ in the lexicographic order).  The procedure is deterministic, so the trace is
         made by running it again.
         """
-        return self._runner.run(self._order, True, self._schedule).trace[:self.tried]
+        return self._runner.run(self._order, True, self._schedule).trace[: self.tried]
 
 
-def swapped(mesh, values, criterion="jnd", norm=2, order=None, min_angle=None, min_area=None,
-            tolerance=None, schedule="sweep", progress=False):
+def swapped(
+    mesh,
+    values,
+    criterion="jnd",
+    norm=2,
+    order=None,
+    min_angle=None,
+    min_area=None,
+    tolerance=None,
+    schedule="sweep",
+    progress=False,
+):
     """The mesh after the local optimisation procedure (Algorithm 3.1.4).
 
     Edges are inspected in order, sweep by sweep; an edge whose quadrilateral is

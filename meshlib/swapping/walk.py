@@ -1,4 +1,5 @@
 """Swaps one by one, of which some may raise the cost: steps among the meshes of given nodes."""
+
 import numpy as np
 
 from ..kernels import COMPILED, codes
@@ -33,8 +34,9 @@ class _Compiled:
 
     def _go(self, edges, rises, logs):
         readable, tally = COMPILED.backend.readable, COMPILED.backend.writable(self._tally)
-        COMPILED.schedules.walked(readable(edges.astype(np.int32)), readable(rises), tally,
-                                  *self._arguments, *logs)
+        COMPILED.schedules.walked(
+            readable(edges.astype(np.int32)), readable(rises), tally, *self._arguments, *logs
+        )
         self._tally = np.asarray(tally)
 
     @property
@@ -53,9 +55,17 @@ class _Plain:
 
     def __init__(self, procedure):
         from . import plain
+
         order = np.arange(procedure.mesh.n_edges)
-        self._state = plain.State(procedure.mesh, procedure.values, procedure.criterion, procedure.norm,
-                                      order, procedure.limits, procedure.tolerance)
+        self._state = plain.State(
+            procedure.mesh,
+            procedure.values,
+            procedure.criterion,
+            procedure.norm,
+            order,
+            procedure.limits,
+            procedure.tolerance,
+        )
 
     def go(self, edges, rises):
         for e, rise in zip(edges.tolist(), rises.tolist(), strict=True):

@@ -1,10 +1,11 @@
 """Figures of chapter 4: nodes, functions and start meshes."""
+
 import numpy as np
 
 import meshlib as ml
 from meshlib import problems
-from meshlib.plotting import bare, framed, function_view, mark_nodes, number_nodes, panels, plot_mesh, style
 from meshlib.geometry.predicates import incircle
+from meshlib.plotting import bare, framed, function_view, mark_nodes, number_nodes, panels, plot_mesh, style
 from meshlib.problems.start_meshes import SQUARE_NODES
 
 __all__ = [f"figure_4_{k}" for k in range(1, 10)]

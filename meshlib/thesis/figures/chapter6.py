@@ -1,4 +1,5 @@
 """Figures of chapter 6: the modified procedures."""
+
 import numpy as np
 
 from ... import plotting

@@ -4,6 +4,7 @@ A certificate is a file of plain data that any program can check: start mesh, fu
 criterion and norm, the edges in the order of inspection, the gain below which no swap is
 made, a perturbation of nodal values, and the elements that come out.
 """
+
 import dataclasses
 import json
 from dataclasses import dataclass
@@ -96,8 +97,11 @@ class Certificate:
             return [*found, f"the start mesh is not that of {self.start!r}"]
         if sorted(map(sorted, self.edges.tolist())) != self.mesh.edges.tolist():
             return [*found, "the edges are not those of the start mesh, each once"]
-        return found + [f"{how} ends in another mesh" for how, values, independent in self._trials()
-                        if not self._ends_well(values, independent)]
+        return found + [
+            f"{how} ends in another mesh"
+            for how, values, independent in self._trials()
+            if not self._ends_well(values, independent)
+        ]
 
     def _trials(self):
         yield "the procedure", self.values, False

@@ -3,13 +3,18 @@
 Tables 5.1 to 5.6, 6.1 and 6.2 and two numbers in the text.  Every number is kept as
 the text that was printed, because its digits decide what matches.
 """
+
 from dataclasses import dataclass
 from decimal import ROUND_FLOOR, ROUND_HALF_UP, Decimal
 from functools import cache
 
 GEOMETRY = ("maximum_angle", "skewness", "aspect_ratio")
-ROWS = {"maximum_angle": "Maximum angle", "skewness": "Skewness",
-        "aspect_ratio": "Aspect ratio", "l2_error": "L2 error"}
+ROWS = {
+    "maximum_angle": "Maximum angle",
+    "skewness": "Skewness",
+    "aspect_ratio": "Aspect ratio",
+    "l2_error": "L2 error",
+}
 STATISTICS = ("mean", "max")
 
 
@@ -60,8 +65,9 @@ TABLES = {
     "5.1": (
         Column("81 pt", "start-81", _geometry("90, 90", "0.3491, 0.3491", "0.8660, 0.8660")),
         Column("33 pt", "start-33", _geometry("103.0, 135.0", "0.5210, 0.8727", "0.6831, 0.8661")),
-        Column("Refined 33 pt", "start-33-refined",
-               _geometry("103.0, 135.0", "0.5210, 0.8727", "0.6831, 0.8661")),
+        Column(
+            "Refined 33 pt", "start-33-refined", _geometry("103.0, 135.0", "0.5210, 0.8727", "0.6831, 0.8661")
+        ),
     ),
     "5.2": (
         Column("SR1, 81 pt", "SR1-81", {"l2_error": "0.004325"}),
@@ -72,22 +78,36 @@ TABLES = {
         Column("DD1, refined 33 pt", "DD1-33-refined", {"l2_error": "0.0508"}),
     ),
     "5.3": (
-        Column("SR2", "SR2-81-JND-L2",
-               _geometry("98.4, 135.0", "0.4472, 0.8726", "0.7848, 0.8660", "0.01946")),
-        Column("SR3", "SR3-81-JND-L2",
-               _geometry("141.2, 168.7", "0.9448, 1.264", "0.3450, 0.8660", "0.03502")),
+        Column(
+            "SR2", "SR2-81-JND-L2", _geometry("98.4, 135.0", "0.4472, 0.8726", "0.7848, 0.8660", "0.01946")
+        ),
+        Column(
+            "SR3", "SR3-81-JND-L2", _geometry("141.2, 168.7", "0.9448, 1.264", "0.3450, 0.8660", "0.03502")
+        ),
     ),
     "5.4": (
-        Column("SR1, ABN-L2", "SR1-33-ABN-L2",
-               _geometry("119.4, 168.7", "0.6970, 1.264", "0.5248, 0.8660", "0.0170")),
-        Column("SR1, ABN-L1", "SR1-33-ABN-L1",
-               _geometry("124.1, 174.8", "0.7569, 1.335", "0.4745, 0.8660", "0.0124")),
-        Column("SR2, ABN-L1", "SR2-33-ABN-L1",
-               _geometry("126.0, 168.7", "0.7771, 1.264", "0.4539, 0.9897", "0.09458")),
+        Column(
+            "SR1, ABN-L2",
+            "SR1-33-ABN-L2",
+            _geometry("119.4, 168.7", "0.6970, 1.264", "0.5248, 0.8660", "0.0170"),
+        ),
+        Column(
+            "SR1, ABN-L1",
+            "SR1-33-ABN-L1",
+            _geometry("124.1, 174.8", "0.7569, 1.335", "0.4745, 0.8660", "0.0124"),
+        ),
+        Column(
+            "SR2, ABN-L1",
+            "SR2-33-ABN-L1",
+            _geometry("126.0, 168.7", "0.7771, 1.264", "0.4539, 0.9897", "0.09458"),
+        ),
     ),
     "5.5": (
-        Column("DD1", "DD1-33-refined-ABN-L2",
-               _geometry("112.0, 175.2", "0.6209, 1.340", "0.5929, 0.9897", "0.03336")),
+        Column(
+            "DD1",
+            "DD1-33-refined-ABN-L2",
+            _geometry("112.0, 175.2", "0.6209, 1.340", "0.5929, 0.9897", "0.03336"),
+        ),
     ),
     "5.6": (
         Column("81 pt", "SR1-81-by-edge", {"l2_error": "0.003669"}),
@@ -95,14 +115,21 @@ TABLES = {
     ),
     "5.3.2": (Column("33 pt", "SR1-33-by-element", {"l2_error": "0.01916"}),),
     "6.1": (
-        Column("SR3", "SR3-81-8-degrees",
-               _geometry("137.7, 153.4", "0.9052, 1.087", "0.3822, 0.8660", "0.05502")),
+        Column(
+            "SR3", "SR3-81-8-degrees", _geometry("137.7, 153.4", "0.9052, 1.087", "0.3822, 0.8660", "0.05502")
+        ),
     ),
     "6.2": (
-        Column("Original", "DD1-33-refined-ABN-L2",
-               _geometry("112.0, 175.2", "0.6209, 1.340", "0.5929, 0.9897", "0.03336")),
-        Column("Reordered", "DD1-33-refined-reordered",
-               _geometry("112.6, 175.2", "0.6270, 1.340", "0.5893, 0.9897", "0.03100")),
+        Column(
+            "Original",
+            "DD1-33-refined-ABN-L2",
+            _geometry("112.0, 175.2", "0.6209, 1.340", "0.5929, 0.9897", "0.03336"),
+        ),
+        Column(
+            "Reordered",
+            "DD1-33-refined-reordered",
+            _geometry("112.6, 175.2", "0.6270, 1.340", "0.5893, 0.9897", "0.03100"),
+        ),
     ),
     "6.2-text": (Column("33 pt", "SR1-33-density", {"l2_error": "0.02150"}),),
 }
@@ -110,9 +137,8 @@ TABLES = {
 IN_TEXT = {"5.3.2": "Section 5.3.2", "6.2-text": "Section 6.2"}
 
 MISPRINTS = {
-    f"5.1/{column}/aspect_ratio/max":
-        "the largest aspect ratio is that of a right isosceles element, sqrt(3)/2 = 0.8660254; "
-        "Tables 5.3, 5.4 and 6.1 print the same value as 0.8660"
+    f"5.1/{column}/aspect_ratio/max": "the largest aspect ratio is that of a right isosceles element, sqrt(3)/2 = 0.8660254; "
+    "Tables 5.3, 5.4 and 6.1 print the same value as 0.8660"
     for column in ("33 pt", "Refined 33 pt")
 }
 
@@ -132,8 +158,12 @@ def numbers():
     >>> numbers()[0].id, numbers()[0].text
     ('5.1/81 pt/maximum_angle/mean', '90')
     """
-    return [number for table, columns in TABLES.items() for column in columns
-            for number in _entries(table, column)]
+    return [
+        number
+        for table, columns in TABLES.items()
+        for column in columns
+        for number in _entries(table, column)
+    ]
 
 
 @cache
@@ -153,9 +183,16 @@ def _entries(table, column):
         texts = entry.split(", ")
         for statistic, text in zip(STATISTICS if len(texts) > 1 else ("",), texts, strict=True):
             key = "/".join(filter(None, (table, column.title, measure, statistic)))
-            yield Printed(key, heading(table), ROWS[measure],
-                          ", ".join(filter(None, (column.title, statistic))),
-                          column.experiment, measure, statistic, text)
+            yield Printed(
+                key,
+                heading(table),
+                ROWS[measure],
+                ", ".join(filter(None, (column.title, statistic))),
+                column.experiment,
+                measure,
+                statistic,
+                text,
+            )
 
 
 def matches(value, text):
@@ -169,8 +206,9 @@ def matches(value, text):
     (True, True, False)
     """
     exact, unit = Decimal(repr(float(value))), Decimal(text).as_tuple().exponent
-    return any(exact.quantize(Decimal(1).scaleb(unit), how) == Decimal(text)
-               for how in (ROUND_HALF_UP, ROUND_FLOOR))
+    return any(
+        exact.quantize(Decimal(1).scaleb(unit), how) == Decimal(text) for how in (ROUND_HALF_UP, ROUND_FLOOR)
+    )
 
 
 def digits(value, text, extra=1):

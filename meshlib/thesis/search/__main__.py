@@ -1,4 +1,5 @@
 """Run the search for certificates from the command line."""
+
 import sys
 
 from .command import main

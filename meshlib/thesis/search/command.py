@@ -12,6 +12,7 @@ first task in order that succeeds gives the certificate, so that the result depe
 the seed alone and not on the number of workers.  What was done is kept in a file, and
 the same command goes on from there.
 """
+
 import argparse
 import json
 from pathlib import Path
@@ -82,8 +83,11 @@ def key_of(table, column=None):
     >>> key_of("6.2", "Reordered")
     'DD1-33-refined-reordered'
     """
-    columns = {c.title: c.experiment for c in printed.TABLES[choice(table, tuple(TABLES), "table")]
-               if c.experiment in HUNTS}
+    columns = {
+        c.title: c.experiment
+        for c in printed.TABLES[choice(table, tuple(TABLES), "table")]
+        if c.experiment in HUNTS
+    }
     if column is None and len(columns) == 1:
         return next(iter(columns.values()))
     if column is None:
@@ -96,8 +100,11 @@ TABLES = tuple(t for t, columns in printed.TABLES.items() if any(c.experiment in
 
 def main(arguments=None):
     """Search from the command line."""
-    parser = argparse.ArgumentParser(prog="python -m meshlib.thesis.search", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="python -m meshlib.thesis.search",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument("table", help="5.3, 5.4, 5.5 or 6.2")
     parser.add_argument("column", nargs="?", help='as in the table, for example "SR1, ABN-L2"')
     parser.add_argument("--seed", type=int, default=1)
@@ -109,8 +116,14 @@ def main(arguments=None):
     command = " ".join([parser.prog, chosen.table, *column, f"--seed {chosen.seed}"])
     try:
         whole(chosen.seed, 0, "seed"), whole(chosen.tasks, 1, "tasks"), checked_workers(chosen.workers)
-        found = search(key_of(chosen.table, chosen.column), command, chosen.seed, chosen.workers,
-                       chosen.folder, chosen.tasks)
+        found = search(
+            key_of(chosen.table, chosen.column),
+            command,
+            chosen.seed,
+            chosen.workers,
+            chosen.folder,
+            chosen.tasks,
+        )
     except (MeshError, OSError) as error:
         parser.error(str(error))
     except KeyboardInterrupt:

@@ -2,6 +2,7 @@
 
 A step draws anew the places in the edge order, or the perturbations, within a random disc.
 """
+
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -167,8 +168,9 @@ def _within(points, centre, radius):
 
 def way(key):
     """All settings that a walk depends on, as text."""
-    return repr((HUNTS[key], NOISE, LARGEST_RADIUS, SMALL_RADII, ORDER_MOVES, STEPS, SECOND_WALKS,
-                 WARM, HOT, COLD))
+    return repr(
+        (HUNTS[key], NOISE, LARGEST_RADIUS, SMALL_RADII, ORDER_MOVES, STEPS, SECOND_WALKS, WARM, HOT, COLD)
+    )
 
 
 def task(key, seed, number):
@@ -181,8 +183,11 @@ def task(key, seed, number):
     if not np.isfinite(trial.distance):
         return None
     for _ in range(SECOND_WALKS):
-        trial = min(trial, walk(target, trial, rng, target.off_all, np.geomspace(HOT, COLD, STEPS)),
-                    key=lambda t: t.distance)
+        trial = min(
+            trial,
+            walk(target, trial, rng, target.off_all, np.geomspace(HOT, COLD, STEPS)),
+            key=lambda t: t.distance,
+        )
     return trial
 
 
@@ -203,8 +208,16 @@ def as_certificate(target, trial, found_by):
     """The trial as data."""
     swap, procedure = target.experiment.operate, target.procedure
     noisy = np.flatnonzero(trial.noise)
-    return Certificate(found_by, target.experiment.nodes, target.experiment.function, swap.criterion,
-                       swap.norm, procedure.tolerance[1],
-                       dict(zip(noisy.tolist(), trial.noise[noisy].tolist(), strict=True)),
-                       procedure.mesh.nodes, procedure.mesh.elements, procedure.mesh.edges[trial.order],
-                       canonical(trial.mesh.elements))
+    return Certificate(
+        found_by,
+        target.experiment.nodes,
+        target.experiment.function,
+        swap.criterion,
+        swap.norm,
+        procedure.tolerance[1],
+        dict(zip(noisy.tolist(), trial.noise[noisy].tolist(), strict=True)),
+        procedure.mesh.nodes,
+        procedure.mesh.elements,
+        procedure.mesh.edges[trial.order],
+        canonical(trial.mesh.elements),
+    )

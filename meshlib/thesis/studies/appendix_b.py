@@ -2,26 +2,27 @@
 
 Everything is seeded and computed when asked for; a study is computed once in a process.
 """
+
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
 from ... import Mesh, criteria, problems
-from ...support.random_numbers import Draws
-from ...optima.enumeration import enumerated
 from ...interpolation.interpolant import squared_errors
+from ...optima.enumeration import enumerated
 from ...optima.many_orders import LocalOptima, local_optima, order_of
 from ...optima.proved import optimal
+from ...support.random_numbers import Draws
 from ..record import printed
+from ..record.printed import texts
 from .experiments import EXPERIMENTS, Swap, natural, run
 from .measures import L2, Remembered, measured, measured_all
-from ..record.printed import texts
 
 ORDERS = 10_000
 SEED = 2001
 TRIALS = 100
-MAGNITUDES = tuple(10.0 ** k for k in range(-16, -5))
+MAGNITUDES = tuple(10.0**k for k in range(-16, -5))
 PROBE = 1e-9  # the noise by which cells are told apart
 RARE = 0.01  # a share of trials below which a cell counts as unchanged
 ANGLES = tuple(range(31))
@@ -105,6 +106,7 @@ def noise(key, magnitude, tolerance=None, trials=TRIALS):
     def digits(values):
         found = measured(_adapted(experiment, start, values, order, tolerance), function)
         return np.array([printed.digits(found[which], text, 0) for which, text in column.items()])
+
     before = digits(values)
     normals = (np.random.default_rng([SEED, k]).standard_normal(len(values)) for k in range(trials))
     changed = [digits(values + magnitude * variates) != before for variates in normals]
@@ -124,9 +126,16 @@ def depends_on(key):
     one trial of a hundred; ``"order"`` or ``"noise"``: one of them does; ``"both"``.
     """
     by_noise = noise(key, PROBE)
-    return {which: {(False, False): "method", (True, False): "order", (False, True): "noise",
-                    (True, True): "both"}[_varies(found, texts(key)[which]), bool(by_noise[which] > RARE)]
-            for which, found in _by_order(key).items() if which in texts(key)}
+    return {
+        which: {
+            (False, False): "method",
+            (True, False): "order",
+            (False, True): "noise",
+            (True, True): "both",
+        }[_varies(found, texts(key)[which]), bool(by_noise[which] > RARE)]
+        for which, found in _by_order(key).items()
+        if which in texts(key)
+    }
 
 
 def _by_order(key):
@@ -248,5 +257,6 @@ def every_mesh():
 def small_mesh(count=SMALL_NODES, seed=SMALL_SEED):
     """The corners of the square and random nodes, so many together."""
     from ... import delaunay
+
     inside = Draws(seed).uniform((count - 4, 2))
     return delaunay(np.vstack([[[0, 0], [1, 0], [1, 1], [0, 1]], inside]))

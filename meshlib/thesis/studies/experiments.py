@@ -4,6 +4,7 @@ An experiment is a start mesh, a function and an operation.  Most are determinis
 those whose printed numbers depend on the edge order and on rounding noise read both
 from a certificate, a file of explicit data.
 """
+
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
@@ -134,6 +135,7 @@ def _refine(key, nodes, mark, recipe, ties="first"):
     def operate(mesh, u, order):
         order = order if mark == "edge" else None
         return refined(mesh, u, "abn", SHARE, mark, "centroid", ties, order)
+
     return Experiment(key, nodes, operate, recipe, "SR1")
 
 
@@ -142,28 +144,41 @@ def _certified(key, function, nodes, criterion, norm, shuffled=False):
     return _swap(key, function, nodes, Swap(criterion, norm), recipe, certified=True, shuffled=shuffled)
 
 
-EXPERIMENTS = {e.key: e for e in (
-    *(_start(nodes) for nodes in ("81", "33", "33-refined")),
-    *(_start("81", f) for f in ("SR1", "SR2", "SR3")),
-    *(_start("33", f) for f in ("SR1", "SR2")),
-    _start("33-refined", "DD1"),
-    _certified("SR2-81-JND-L2", "SR2", "81", "jnd", 2),
-    _certified("SR3-81-JND-L2", "SR3", "81", "jnd", 2),
-    _certified("SR1-33-ABN-L2", "SR1", "33", "abn", 2),
-    _certified("SR1-33-ABN-L1", "SR1", "33", "abn", 1),
-    _certified("SR2-33-ABN-L1", "SR2", "33", "abn", 1),
-    _certified("DD1-33-refined-ABN-L2", "DD1", "33-refined", "abn", 2),
-    _certified("DD1-33-refined-reordered", "DD1", "33-refined", "abn", 2, shuffled=True),
-    _swap("SR3-81-8-degrees", "SR3", "81", Swap("abn", 2, SMALLEST_ANGLE),
-          f"{NATURAL}, no new angle below 8 degrees"),
-    _refine("SR1-81-by-edge", "81", "edge", "elements at the worst edges until 20 % are marked"),
-    _refine("SR1-33-by-edge", "33", "edge", "elements at the worst edges until 20 % are marked"),
-    _refine("SR1-81-by-element", "81", "element", "worst 20 % by mean of edge costs"),
-    _refine("SR1-33-by-element", "33", "element",
-            "worst 20 % by mean of edge costs, and the tie with the last", "all"),
-    _refine("SR1-33-density", "33", "density", "worst 20 % by sum of edge costs per area"),
-    Experiment("smoothed-33", "33", lambda mesh, u, order: smoothed(mesh), "Laplacian smoothing"),
-)}
+EXPERIMENTS = {
+    e.key: e
+    for e in (
+        *(_start(nodes) for nodes in ("81", "33", "33-refined")),
+        *(_start("81", f) for f in ("SR1", "SR2", "SR3")),
+        *(_start("33", f) for f in ("SR1", "SR2")),
+        _start("33-refined", "DD1"),
+        _certified("SR2-81-JND-L2", "SR2", "81", "jnd", 2),
+        _certified("SR3-81-JND-L2", "SR3", "81", "jnd", 2),
+        _certified("SR1-33-ABN-L2", "SR1", "33", "abn", 2),
+        _certified("SR1-33-ABN-L1", "SR1", "33", "abn", 1),
+        _certified("SR2-33-ABN-L1", "SR2", "33", "abn", 1),
+        _certified("DD1-33-refined-ABN-L2", "DD1", "33-refined", "abn", 2),
+        _certified("DD1-33-refined-reordered", "DD1", "33-refined", "abn", 2, shuffled=True),
+        _swap(
+            "SR3-81-8-degrees",
+            "SR3",
+            "81",
+            Swap("abn", 2, SMALLEST_ANGLE),
+            f"{NATURAL}, no new angle below 8 degrees",
+        ),
+        _refine("SR1-81-by-edge", "81", "edge", "elements at the worst edges until 20 % are marked"),
+        _refine("SR1-33-by-edge", "33", "edge", "elements at the worst edges until 20 % are marked"),
+        _refine("SR1-81-by-element", "81", "element", "worst 20 % by mean of edge costs"),
+        _refine(
+            "SR1-33-by-element",
+            "33",
+            "element",
+            "worst 20 % by mean of edge costs, and the tie with the last",
+            "all",
+        ),
+        _refine("SR1-33-density", "33", "density", "worst 20 % by sum of edge costs per area"),
+        Experiment("smoothed-33", "33", lambda mesh, u, order: smoothed(mesh), "Laplacian smoothing"),
+    )
+}
 
 
 @cache
@@ -193,8 +208,12 @@ def run(key):
     start = problems.mesh(experiment.nodes)
     certificate = certificates.load(key) if experiment.certified else None
     if not certificate:
-        return Result(experiment, start, *_natural(experiment, start),
-                      SEARCHED if experiment.certified else DETERMINISTIC)
+        return Result(
+            experiment,
+            start,
+            *_natural(experiment, start),
+            SEARCHED if experiment.certified else DETERMINISTIC,
+        )
     record = certificate.swapped()
     return Result(experiment, start, record.mesh, record, CERTIFIED)
 

@@ -1,4 +1,5 @@
 """The four measures of the tables, for one mesh or for many."""
+
 import numpy as np
 
 from ... import Interpolant, quality

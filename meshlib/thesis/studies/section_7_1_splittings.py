@@ -3,14 +3,15 @@
 From the 33 nodes on, a fifth of the elements is marked and split in every round, until the
 L2 error is a hundredth of that at the start, or the mesh too large.
 """
+
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
 from ... import Interpolant, criteria, problems, quality, refined
-from ...refinement.marking import MARKS
 from ...mesh.quality import angles
+from ...refinement.marking import MARKS
 from ...refinement.splitting import SPLITS
 from ..tables.numbered import grid, numbered
 
@@ -110,10 +111,14 @@ def _error(mesh, u):
 
 def table_needed():
     """Nodes at which the error is a hundredth, by splitting and marking."""
-    rows = [(*names, *(_needed(rounds(function, split, mark)) for mark in MARKINGS))
-            for names, function, split in _lines()]
-    caption = ("Nodes needed until the $L_2$ error is a hundredth of that on the 33 nodes; in brackets, "
-               f"where a mesh of {MOST_NODES} nodes or more came first, the error there in per cent of it.")
+    rows = [
+        (*names, *(_needed(rounds(function, split, mark)) for mark in MARKINGS))
+        for names, function, split in _lines()
+    ]
+    caption = (
+        "Nodes needed until the $L_2$ error is a hundredth of that on the 33 nodes; in brackets, "
+        f"where a mesh of {MOST_NODES} nodes or more came first, the error there in per cent of it."
+    )
     return numbered("tab-7-1-nodes", caption, grid(("", "", *(f"by {m}" for m in MARKINGS)), rows))
 
 
@@ -134,12 +139,29 @@ def table_reasons():
     rows = []
     for names, function, split in _lines():
         found = rounds(function, split, "element")
-        rows.append((*names, f"{found.changed:.1f}", f"{found.smallest_angles[-1]:.2f}°",
-                     f"{found.mean_largest_angle:.0f}°", f"{largest_kink(function, split):.0f}°"))
-    head = ("", "", "Elements changed for each one marked", "Smallest angle", "Mean largest angle",
-            "Largest kink")
-    return numbered("tab-7-1-reasons", "Marked by element: what has to change with each marked element, the "
-                    "angles of the last mesh, and the largest angle between normals there.", grid(head, rows))
+        rows.append(
+            (
+                *names,
+                f"{found.changed:.1f}",
+                f"{found.smallest_angles[-1]:.2f}°",
+                f"{found.mean_largest_angle:.0f}°",
+                f"{largest_kink(function, split):.0f}°",
+            )
+        )
+    head = (
+        "",
+        "",
+        "Elements changed for each one marked",
+        "Smallest angle",
+        "Mean largest angle",
+        "Largest kink",
+    )
+    return numbered(
+        "tab-7-1-reasons",
+        "Marked by element: what has to change with each marked element, the "
+        "angles of the last mesh, and the largest angle between normals there.",
+        grid(head, rows),
+    )
 
 
 def largest_kink(function, split, number=-1):

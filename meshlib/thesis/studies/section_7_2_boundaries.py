@@ -1,15 +1,16 @@
 """Three more measures (section 7.2): uniformity, valence, and the deviation from a curved domain."""
+
 from functools import cache
 
 import numpy as np
 
 from ... import curves, problems, refined, smoothed, swapped, uniformity, valence
 from ...refinement.splitting import SPLITS
-from .section_7_5_combining import LIMIT, START, adapted
 from ..tables.numbered import grid, numbered
+from .section_7_5_combining import LIMIT, START, adapted
 
 FUNCTION = "SR1"
-NODES = tuple(2 ** k for k in range(3, 9))  # along a boundary
+NODES = tuple(2**k for k in range(3, 9))  # along a boundary
 DENSITIES = {"curvature": "$\\kappa^{1/3}$", "length": "arc length", "parameter": "parameter"}
 LOBES, DEPTH = 3, 0.35
 FINE = 1 << 14  # points along a curve, for integrals
@@ -21,8 +22,12 @@ FINE = 1 << 14  # points along a curve, for integrals
 def meshes():
     """What chapter 3 and Algorithm 7.5.1 make of the 33 nodes, by name."""
     mesh, u = problems.mesh(START), problems.functions[FUNCTION]
-    found = {"start": mesh, "swapped": swapped(mesh, u, "abn").mesh, "smoothed": smoothed(mesh).mesh,
-             "combined": adapted(FUNCTION).mesh}
+    found = {
+        "start": mesh,
+        "swapped": swapped(mesh, u, "abn").mesh,
+        "smoothed": smoothed(mesh).mesh,
+        "combined": adapted(FUNCTION).mesh,
+    }
     return found | {split: refined(mesh, u, fraction=1, split=split).mesh for split in SPLITS}
 
 
@@ -31,11 +36,22 @@ def table_measures():
     rows = []
     for name, mesh in meshes().items():
         un, val = uniformity(mesh), valence(mesh)
-        rows.append((name, mesh.n_nodes, mesh.n_elements, f"{un.mean():.2f}", f"{un.max():.1f}",
-                     f"{val.mean():.3f}", val.max()))
+        rows.append(
+            (
+                name,
+                mesh.n_nodes,
+                mesh.n_elements,
+                f"{un.mean():.2f}",
+                f"{un.max():.1f}",
+                f"{val.mean():.3f}",
+                val.max(),
+            )
+        )
     head = ("Mesh", "Nodes", "Elements", "Uniformity, mean", "max", "Valence, mean", "max")
-    caption = (f"Uniformity and valence for {FUNCTION}: the start mesh, the same nodes swapped, smoothed and "
-               f"combined (no angle below {LIMIT:g}°), and every element split once.")
+    caption = (
+        f"Uniformity and valence for {FUNCTION}: the start mesh, the same nodes swapped, smoothed and "
+        f"combined (no angle below {LIMIT:g}°), and every element split once."
+    )
     return numbered("tab-7-2-measures", caption, grid(head, rows))
 
 
@@ -70,7 +86,7 @@ def lost(name, density):
     >>> lost("ellipse", "curvature").round(1).tolist()
     [80.2, 82.0, 82.5, 82.6, 82.7, 82.7]
     """
-    return np.array([n ** 2 * curves.deviation(CURVES[name], placed(name, n, density)) for n in NODES])
+    return np.array([n**2 * curves.deviation(CURVES[name], placed(name, n, density)) for n in NODES])
 
 
 def limits(name):
@@ -88,7 +104,7 @@ def limits(name):
     found = {}
     weights = {"curvature": np.cbrt(curvature), "length": 1 + 0 * speed, "parameter": 1 / speed}
     for density, w in weights.items():
-        ratio = np.divide(curvature, w ** 2, where=w > 0, out=np.zeros(FINE))
+        ratio = np.divide(curvature, w**2, where=w > 0, out=np.zeros(FINE))
         found[density] = float((w * speed).mean() ** 2 * (ratio * speed).mean() / 12)
     return found
 
@@ -110,11 +126,22 @@ def _derivative(values):
 
 def table_lost():
     """n^2 times the area lost, and its limit."""
-    rows = [(name if density == "curvature" else "", title, *(f"{v:.2f}" for v in lost(name, density)),
-             f"{limits(name)[density]:.2f}") for name in CURVES for density, title in DENSITIES.items()]
+    rows = [
+        (
+            name if density == "curvature" else "",
+            title,
+            *(f"{v:.2f}" for v in lost(name, density)),
+            f"{limits(name)[density]:.2f}",
+        )
+        for name in CURVES
+        for density, title in DENSITIES.items()
+    ]
     head = ("", "The same between neighbours", *(f"$n = {n}$" for n in NODES), "$n \\to \\infty$")
-    return numbered("tab-7-2-lost", "$n^2$ times the area between the curve and the polygon with $n$ nodes, "
-                    "and the limit by theory.", grid(head, rows))
+    return numbered(
+        "tab-7-2-lost",
+        "$n^2$ times the area between the curve and the polygon with $n$ nodes, and the limit by theory.",
+        grid(head, rows),
+    )
 
 
 # -- data on the boundary ------------------------------------------------------------------------
@@ -138,7 +165,7 @@ def missed(name, function, by_data):
     for n in NODES:
         at = np.append(placed(name, n, u if by_data else "length"), 1)
         linear = np.interp(s, np.interp(at, t, s), u(*CURVES[name](at)))
-        found.append(n ** 2 * np.sqrt(np.trapezoid((u(x, y) - linear) ** 2, s)))
+        found.append(n**2 * np.sqrt(np.trapezoid((u(x, y) - linear) ** 2, s)))
     return np.array(found)
 
 
@@ -154,9 +181,13 @@ def table_missed(name="trefoil", function="SR1"):
     """n^2 times the error along the boundary, by the data and by arc length."""
     limit = f"{missed_limit(name, function):.3f}"
     cases = (r"$\lvert u_{ss}\rvert^{2/5}$", True, limit), ("arc length", False, "")
-    rows = [(title, *(f"{v:.3f}" for v in missed(name, function, by_data)), last)
-            for title, by_data, last in cases]
+    rows = [
+        (title, *(f"{v:.3f}" for v in missed(name, function, by_data)), last)
+        for title, by_data, last in cases
+    ]
     head = ("The same between neighbours", *(f"$n = {n}$" for n in NODES), "$n \\to \\infty$")
-    caption = (f"$n^2$ times the $L_2$ error of linear interpolation of {function} along the boundary of the "
-               f"{name} between $n$ nodes.")
+    caption = (
+        f"$n^2$ times the $L_2$ error of linear interpolation of {function} along the boundary of the "
+        f"{name} between $n$ nodes."
+    )
     return numbered("tab-7-2-data", caption, grid(head, rows))

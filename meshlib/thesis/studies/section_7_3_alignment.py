@@ -3,14 +3,15 @@
 A ramp is turned over the lattice of the 81 nodes.  To turn the ramp and not the nodes
 keeps the unit square, its mesh and its boundary nodes the same at every angle.
 """
+
 from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
 
 from ... import DataSprings, Interpolant, checks, delaunay, problems, refined, smoothed, swapped
-from ...support.random_numbers import Draws
 from ...movement.smoothed import MOST_SWEEPS
+from ...support.random_numbers import Draws
 from .measures import GRID_POINTS, L2, Remembered, measured
 
 CRITERION, NORM = "jnd", 2  # of section 5.2
@@ -196,7 +197,7 @@ def error_far_from_boundary(rise, run):
 
     In units of the error of the wide ramp: the narrow one covers a part of the square only.
     """
-    scale, mesh = 2 ** FINER, problems.mesh("81")
+    scale, mesh = 2**FINER, problems.mesh("81")
     for _ in range(FINER):
         mesh = refined(mesh, np.zeros(mesh.n_nodes), fraction=1).mesh
     u = Ramp(angle_of(rise, run), scale * STEEPNESS)
@@ -206,8 +207,15 @@ def error_far_from_boundary(rise, run):
 
 # -- other constants, other orders of steps ---------------------------------------------------------
 
-CONSTANTS = ((0, 1, 0.4), (0, 10, 0.4), (0, 100, 0.4), (0, 1000, 0.4), (100, 0, 0.4), (0, 10, 1.0),
-             (10, 0, 1.0))  # first, second, power
+CONSTANTS = (
+    (0, 1, 0.4),
+    (0, 10, 0.4),
+    (0, 100, 0.4),
+    (0, 1000, 0.4),
+    (100, 0, 0.4),
+    (0, 10, 1.0),
+    (10, 0, 1.0),
+)  # first, second, power
 TRIAL_ANGLES = tuple(range(0, 91, 5))
 ROUNDS = (1, 2, 5)
 
@@ -230,8 +238,15 @@ def trial(first, second, power, rounds=1):
     return np.array(rows)
 
 
-ELSEWHERE = (("SR1", "81"), ("SR2", "81"), ("SR3", "81"), ("SR1", "33"), ("SR2", "33"), ("franke", "81"),
-             ("DD1", "33-refined"))
+ELSEWHERE = (
+    ("SR1", "81"),
+    ("SR2", "81"),
+    ("SR3", "81"),
+    ("SR1", "33"),
+    ("SR2", "33"),
+    ("franke", "81"),
+    ("DD1", "33-refined"),
+)
 WEIGHTS = 1, 10, 100  # of the second derivative
 REST = 1e-3  # relative, of errors
 STOPS = MOST_SWEEPS, MOST_SWEEPS - 5  # sweeps, at either of which springs at rest give the same error

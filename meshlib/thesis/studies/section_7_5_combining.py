@@ -1,4 +1,5 @@
 """Algorithm 7.5.1 (section 7.5): a mesh on which it cycles, that it ends, and what it reaches."""
+
 from functools import cache
 
 import numpy as np
@@ -6,8 +7,8 @@ import numpy as np
 from ... import MeshError, combined, delaunay, problems
 from ...combination.combined import LEAST_GAIN
 from ...mesh.quality import angles
-from .appendix_b import settled_error
 from ..tables.numbered import grid, numbered
+from .appendix_b import settled_error
 
 FUNCTIONS = ("SR1", "SR2", "SR3", "DD1")
 START = "33"
@@ -42,8 +43,16 @@ def table_cycle():
     for rim, title in ((False, "left out"), (True, "counted")):
         found = cycle(rim)
         before = [found.indicator, *found.steps["indicator"]]
-        rows += [(title * (k == 0), f"{step['way']} around node {step['node']}", f"{step['gain']:.2f}",
-                  f"{before[k]:.2f}", f"{step['indicator']:.2f}") for k, step in enumerate(found.steps)]
+        rows += [
+            (
+                title * (k == 0),
+                f"{step['way']} around node {step['node']}",
+                f"{step['gain']:.2f}",
+                f"{before[k]:.2f}",
+                f"{step['indicator']:.2f}",
+            )
+            for k, step in enumerate(found.steps)
+        ]
     head = ("Rim", "Step", "Gain of the patch", "$J$ of the mesh before", "after")
     caption = "Two steps on a mesh of six nodes, criterion JND-$L_2$."
     return numbered("tab-7-5-cycle", caption, grid(head, rows))
@@ -86,15 +95,22 @@ def table_errors():
     """L2 errors at the start, and after each way alone, in turn, and patch by patch."""
     rows = []
     for function in FUNCTIONS:
-        meshes = [problems.mesh(START), *(adapted(function, name).mesh for name in ("swapped", "moved")),
-                  in_turn(function), adapted(function).mesh, adapted(function, limit=None).mesh]
+        meshes = [
+            problems.mesh(START),
+            *(adapted(function, name).mesh for name in ("swapped", "moved")),
+            in_turn(function),
+            adapted(function).mesh,
+            adapted(function, limit=None).mesh,
+        ]
         u = problems.functions[function]
         errors = (f"{settled_error(mesh, u):.4f}" for mesh in meshes)
         rows.append((function, *errors, _flat_at_the_boundary(meshes[-1])))
     head = ("", "Start", "Swapped", "Moved", "In turn", "Combined", "No limit", "Flat at the boundary")
-    caption = (f"$L_2$ error on the 33 nodes with no new angle below {LIMIT:g}°: by either way alone, by "
-               "both in turn, and by the better of both on each patch; and the last without that limit, with "
-               f"the number of elements at the boundary that have an angle below {FLAT}°.")
+    caption = (
+        f"$L_2$ error on the 33 nodes with no new angle below {LIMIT:g}°: by either way alone, by "
+        "both in turn, and by the better of both on each patch; and the last without that limit, with "
+        f"the number of elements at the boundary that have an angle below {FLAT}°."
+    )
     return numbered("tab-7-5-errors", caption, grid(head, rows))
 
 
@@ -109,10 +125,11 @@ def table_gains(function="SR1"):
     """Steps and error against the gain that a step must have."""
     u, rows = problems.functions[function], []
     for power in POWERS:
-        found = adapted(function, limit=None, least_gain=10.0 ** -power)
+        found = adapted(function, limit=None, least_gain=10.0**-power)
         error = f"{settled_error(found.mesh, u):.5f}"
         rows.append((f"$10^{{-{power}}}$", len(found.steps), found.sweeps, error))
     head = ("Least gain $\\delta/J_0$", "Steps", "Sweeps", "$L_2$ error")
-    caption = (f"The combined strategy for {function}, without a limit on angles, by the gain that a step "
-               "must have.")
+    caption = (
+        f"The combined strategy for {function}, without a limit on angles, by the gain that a step must have."
+    )
     return numbered("tab-7-5-gains", caption, grid(head, rows))

@@ -1,4 +1,5 @@
 """How far local optima are from the best mesh, by listing all meshes, and how near annealing comes."""
+
 from dataclasses import dataclass
 from functools import cache
 
@@ -6,8 +7,8 @@ import numpy as np
 
 from ... import Mesh, annealed, criteria, local_optima, optimal, problems, swapped
 from ...optima.enumeration import enumerated
-from .measures import l2_error
 from .appendix_b import small_mesh
+from .measures import l2_error
 
 SETS, NODES = 12, 10
 FUNCTIONS = "SR2", "franke"
@@ -88,7 +89,7 @@ def costs_of_parts(start, every, values, criterion, norm):
     count = every.n_elements // start.n_elements
     vector = criterion.costs(every, np.tile(values, count))
     first = every.edges[:, 0] if criterion.on == "edge" else every.elements[:, 0]
-    return np.bincount(first // start.n_nodes, vector ** norm, count) ** (1 / norm)
+    return np.bincount(first // start.n_nodes, vector**norm, count) ** (1 / norm)
 
 
 @cache
@@ -178,5 +179,10 @@ def large(nodes, function, name, norm):
     least = min(runs, key=lambda run: run.cost_after)
     proved, many = optimal(mesh, u, name, norm), local_optima(mesh, u, name, norm, ORDERS)
     meshes = in_natural_order(nodes, function, name, norm), least.mesh, proved.mesh
-    return Large(least.cost_swapped, many.costs.min(), proved.cost,
-                 np.array([run.cost_after for run in runs]), *(l2_error(found, u) for found in meshes))
+    return Large(
+        least.cost_swapped,
+        many.costs.min(),
+        proved.cost,
+        np.array([run.cost_after for run in runs]),
+        *(l2_error(found, u) for found in meshes),
+    )

@@ -1,4 +1,5 @@
 """The limit of piecewise linear interpolation (section 7.7), and how near meshes come to it."""
+
 from dataclasses import dataclass
 from functools import cache
 
@@ -15,7 +16,7 @@ SQUARE = ((0.0, 0.0), (1.0, 1.0))
 # two kinks, which differences would take for curvature.
 BOXES = {"DD1": ((1.35 / 2.1, 0.25), (1.85 / 2.1, 0.75))}
 
-NODES = tuple(50 * 2 ** k for k in range(6))
+NODES = tuple(50 * 2**k for k in range(6))
 DIRECTED_NODES = NODES[1::2]
 SHOWN = 400  # nodes of meshes to look at
 DEGREE = 12  # of the quadrature that measures
@@ -57,7 +58,7 @@ def hessians(function, x, y, step=STEP):
     xx = u[1, 0] - 2 * u[0, 0] + u[-1, 0]
     yy = u[0, 1] - 2 * u[0, 0] + u[0, -1]
     xy = (u[1, 1] - u[1, -1] - u[-1, 1] + u[-1, -1]) / 4
-    return np.stack([xx, xy, xy, yy], axis=-1).reshape(*np.shape(x), 2, 2) / step ** 2
+    return np.stack([xx, xy, xy, yy], axis=-1).reshape(*np.shape(x), 2, 2) / step**2
 
 
 def constant(function, box=SQUARE, cells=CELLS):
@@ -91,7 +92,7 @@ def constant(function, box=SQUARE, cells=CELLS):
 def _densities(function, x, y):
     """The cube root of c |det H|, the density of elements in a best mesh but for a factor."""
     xx, xy, _, yy = hessians(function, x, y).reshape(-1, 4).T
-    det = xx * yy - xy ** 2
+    det = xx * yy - xy**2
     return np.cbrt(np.where(det > 0, DEFINITE, INDEFINITE) * np.abs(det))
 
 
@@ -141,7 +142,7 @@ def made(name, nodes=SHOWN, min_angle=None):
 
 def lattice(nodes):
     """The Delaunay mesh of a square lattice of about so many nodes."""
-    ticks = np.linspace(0, 1, round(nodes ** 0.5))
+    ticks = np.linspace(0, 1, round(nodes**0.5))
     return delaunay(np.stack(np.meshgrid(ticks, ticks), axis=-1).reshape(-1, 2))
 
 
@@ -187,7 +188,7 @@ def strip_constant(function, points=100_000):
     h = hessians(function, t, t if _falls_along(function) else 1 - t)
     second = np.trace(h, axis1=1, axis2=2)  # the Laplacian: nothing is curved along the strip
     length = 2 * np.sqrt(2) * np.minimum(t, 1 - t)
-    return float((np.sqrt(2) * np.mean((second ** 2 * length / 120) ** 0.2)) ** 2.5)
+    return float((np.sqrt(2) * np.mean((second**2 * length / 120) ** 0.2)) ** 2.5)
 
 
 def _falls_along(function):
@@ -237,11 +238,12 @@ def terrain():
     Terrain
     """
     from matplotlib.cbook import get_sample_data
+
     with get_sample_data(TERRAIN) as data:
         heights = data["elevation"][::-1].astype(float)
     rows, columns = heights.shape
     found = approximate(heights, TERRAIN_NODES, domain=((0, 0), (columns - 1, rows - 1)))
-    side = round(TERRAIN_NODES ** 0.5)
+    side = round(TERRAIN_NODES**0.5)
     x, y = (np.linspace(0, n - 1, side).round().astype(int) for n in (columns, rows))
     nodes = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     regular = Interpolant(delaunay(nodes), heights[nodes[:, 1], nodes[:, 0]])
@@ -251,7 +253,7 @@ def terrain():
 def stream(x, y):
     """Stream function of the flow around a disc in the middle of the unit square."""
     x, y = x - 0.5, y - 0.5
-    return y * (1 - HOLE_RADIUS ** 2 / (x * x + y * y))
+    return y * (1 - HOLE_RADIUS**2 / (x * x + y * y))
 
 
 def square_with_hole():

@@ -1,18 +1,29 @@
 """The matrix of the Poisson problem on a mesh, and its condition number (section 7.7)."""
+
 from functools import cache
 
 import numpy as np
 
 from ...errors import missing_extra
 from ...mesh.quality import angles
-from .section_7_5_combining import adapted
 from .experiments import run
+from .section_7_5_combining import adapted
 from .section_7_7a_limit import FUNCTIONS, LEAST_ANGLE, made
 
 START = ("start-33", "start-81", "start-33-refined")
-THESIS = {"5": ("SR1-33-ABN-L1", "SR1-33-ABN-L2", "SR2-33-ABN-L1", "SR2-81-JND-L2", "SR3-81-JND-L2",
-                "DD1-33-refined-ABN-L2", "SR1-33-by-edge", "SR1-81-by-edge"),
-          "6": ("SR3-81-8-degrees", "DD1-33-refined-reordered", "SR1-33-density")}
+THESIS = {
+    "5": (
+        "SR1-33-ABN-L1",
+        "SR1-33-ABN-L2",
+        "SR2-33-ABN-L1",
+        "SR2-81-JND-L2",
+        "SR3-81-JND-L2",
+        "DD1-33-refined-ABN-L2",
+        "SR1-33-by-edge",
+        "SR1-81-by-edge",
+    ),
+    "6": ("SR3-81-8-degrees", "DD1-33-refined-reordered", "SR1-33-density"),
+}
 COMBINED = ("SR1", "SR2", "SR3", "DD1")
 
 
@@ -74,13 +85,19 @@ def families():
     free = {name: made(name).mesh for name in FUNCTIONS}
     limited = {name: made(name, min_angle=LEAST_ANGLE).mesh for name in FUNCTIONS}
     chapters = {f"chapter {number}": {key: run(key).mesh for key in keys} for number, keys in THESIS.items()}
-    return {"start": {key: run(key).mesh for key in START}} | chapters | {
-        "section 7.5": {name: adapted(name).mesh for name in COMBINED}} | {
-        "approximate": free, f"approximate, {LEAST_ANGLE:g}°": limited}
+    return (
+        {"start": {key: run(key).mesh for key in START}}
+        | chapters
+        | {"section 7.5": {name: adapted(name).mesh for name in COMBINED}}
+        | {"approximate": free, f"approximate, {LEAST_ANGLE:g}°": limited}
+    )
 
 
 @cache
 def measured():
     """(family, name) -> smallest angle in degrees and the two condition numbers."""
-    return {(family, name): (float(np.degrees(angles(mesh.corners).min())), *conditions(mesh))
-            for family, meshes in families().items() for name, mesh in meshes.items()}
+    return {
+        (family, name): (float(np.degrees(angles(mesh.corners).min())), *conditions(mesh))
+        for family, meshes in families().items()
+        for name, mesh in meshes.items()
+    }

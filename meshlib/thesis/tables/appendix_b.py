@@ -1,4 +1,5 @@
 """The tables of the appendix on reproducibility, every cell computed."""
+
 import numpy as np
 
 from ... import criteria, problems
@@ -8,9 +9,15 @@ from ..studies.experiments import EXPERIMENTS, run
 from ..studies.measures import L2, l2_error
 from .numbered import grid, markdown
 
-COLUMNS = {("maximum_angle", "mean"): "angle, mean", ("maximum_angle", "max"): "max",
-           ("skewness", "mean"): "skewness, mean", ("skewness", "max"): "max",
-           ("aspect_ratio", "mean"): "aspect, mean", ("aspect_ratio", "max"): "max", L2: "$L_2$"}
+COLUMNS = {
+    ("maximum_angle", "mean"): "angle, mean",
+    ("maximum_angle", "max"): "max",
+    ("skewness", "mean"): "skewness, mean",
+    ("skewness", "max"): "max",
+    ("aspect_ratio", "mean"): "aspect, mean",
+    ("aspect_ratio", "max"): "max",
+    L2: "$L_2$",
+}
 
 
 def title(key):
@@ -23,15 +30,31 @@ def title(key):
 
 def orders():
     """What many random edge orders lead to, beside what is printed."""
-    head = ("Experiment", "Local optima", "$L_2$ least", "median", "largest", "printed",
-            "Orders that give it", "Orders that give the column")
+    head = (
+        "Experiment",
+        "Local optima",
+        "$L_2$ least",
+        "median",
+        "largest",
+        "printed",
+        "Orders that give it",
+        "Orders that give the column",
+    )
     rows = []
     for key in studies.SWAPS:
         study, column = studies.orders(key), printed.texts(key)
         errors = study.values(L2)
         spread = (f"{error:.5f}" for error in np.quantile(errors, (0, 0.5, 1)))
-        rows.append((title(key), len(study.optima), *spread, column[L2],
-                     percent(study.share(L2, column[L2])), percent(study.share_of_column(column))))
+        rows.append(
+            (
+                title(key),
+                len(study.optima),
+                *spread,
+                column[L2],
+                percent(study.share(L2, column[L2])),
+                percent(study.share_of_column(column)),
+            )
+        )
     return markdown(grid(head, rows))
 
 
@@ -67,8 +90,14 @@ def quadrature():
         if number.measure == L2[0]:
             *by_grid, settled, searched = studies.quadrature(number)
             cells = [_marked(value, number.text) for value in by_grid]
-            rows.append((f"{number.table}, {number.column}" + searched * " (fitted)", number.text, *cells,
-                         printed.digits(settled, number.text)))
+            rows.append(
+                (
+                    f"{number.table}, {number.column}" + searched * " (fitted)",
+                    number.text,
+                    *cells,
+                    printed.digits(settled, number.text),
+                )
+            )
     return markdown(grid(head, rows))
 
 
@@ -80,8 +109,14 @@ def _marked(value, text):
 
 def optimum():
     """Cost and error of the printed meshes, of the best of many orders, and of the proved optima."""
-    head = ("Column", "Measured by", "Printed mesh", "Best of the orders", "Proved optimum",
-            "Printed above it by")
+    head = (
+        "Column",
+        "Measured by",
+        "Printed mesh",
+        "Best of the orders",
+        "Proved optimum",
+        "Printed above it by",
+    )
     rows = []
     for key in studies.SMALL:
         result, study = run(key), studies.orders(key)
@@ -92,8 +127,16 @@ def optimum():
         least = study.optima.costs.min()
         values = (f"{value:.4f}" for value in (cost, least, best))
         rows.append((title(key), swap.title, *values, _excess(cost, best)))
-        rows.append(("", "$L_2$ error", f"{result.measures[L2]:.6f}", f"{study.measures[L2].min():.6f}",
-                     f"{error:.6f}", _excess(result.measures[L2], error)))
+        rows.append(
+            (
+                "",
+                "$L_2$ error",
+                f"{result.measures[L2]:.6f}",
+                f"{study.measures[L2].min():.6f}",
+                f"{error:.6f}",
+                _excess(result.measures[L2], error),
+            )
+        )
     return markdown(grid(head, rows))
 
 

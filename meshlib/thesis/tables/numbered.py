@@ -3,6 +3,7 @@
 Each function returns an `IPython.display.Markdown` for a notebook cell with the
 metadata ``{"mystnb": {"markdown_format": "myst"}}``.
 """
+
 import numpy as np
 
 from ... import problems
@@ -17,7 +18,7 @@ CAPTIONS = {
     "5.3": "Edge swapping with JND-$L_2$ on 81 nodes: quality (mean, maximum) and $L_2$ error.",
     "5.4": "Edge swapping with ABN on 33 nodes: quality (mean, maximum) and $L_2$ error.",
     "5.5": "Edge swapping with ABN-$L_2$ on the refined 33-node mesh: quality (mean, maximum) "
-           "and $L_2$ error.",
+    "and $L_2$ error.",
     "5.6": "$L_2$ error after refinement by edge.",
     "6.1": "Edge swapping of SR3 with no new angle below 8°: quality (mean, maximum) and $L_2$ error.",
     "6.2": "Two edge orders, two local optima: quality (mean, maximum) and $L_2$ error.",
@@ -74,8 +75,9 @@ def appendix_a():
     """The nodes of Appendix A beside those that Franke published."""
     number = np.arange(1, len(problems.nodes("33")) + 1)
     columns = (number, *problems.nodes("33").T, *problems.nodes("33-franke").T)
-    rows = [f"{n} | {x:.1f} | {y:.1f} | {fx:.2f} | {fy:.2f}"
-            for n, x, y, fx, fy in zip(*columns, strict=True)]
+    rows = [
+        f"{n} | {x:.1f} | {y:.1f} | {fx:.2f} | {fy:.2f}" for n, x, y, fx, fy in zip(*columns, strict=True)
+    ]
     rows += [" | " * 4] * (2 * NODES_PER_COLUMN - len(rows))
     pairs = zip(rows[:NODES_PER_COLUMN], rows[NODES_PER_COLUMN:], strict=True)
     return markdown(grid(("Node", "$x$", "$y$", "$x$, Franke", "$y$, Franke") * 2, pairs))

@@ -1,18 +1,29 @@
 """The tables of section 7.7, every cell computed."""
+
 import numpy as np
 
-from ..studies import section_7_7b_conditioning as conditioning, section_7_7a_limit as limit
+from ..studies import section_7_7a_limit as limit
+from ..studies import section_7_7b_conditioning as conditioning
 from ..studies.section_7_7b_conditioning import LEAST_ANGLE
 from .numbered import grid, numbered
 
 
 def efficiencies():
     """The constant of each function, and how near its limit the meshes come."""
-    rows = [(name, f"{limit.limit(name):.4f}", *(f"{e:.2f}" for e in limit.efficiencies(name)[0]),
-             f"{limit.efficiencies(name)[1][-1]:.1f}") for name in limit.FUNCTIONS]
+    rows = [
+        (
+            name,
+            f"{limit.limit(name):.4f}",
+            *(f"{e:.2f}" for e in limit.efficiencies(name)[0]),
+            f"{limit.efficiencies(name)[1][-1]:.1f}",
+        )
+        for name in limit.FUNCTIONS
+    ]
     head = ("", "$B$", *(f"{n} nodes" for n in limit.NODES), f"lattice, {limit.NODES[-1]}")
-    caption = ("Error times number of elements, in units of the limit $B$: meshes made for the function, and "
-               "in the last column a lattice.")
+    caption = (
+        "Error times number of elements, in units of the limit $B$: meshes made for the function, and "
+        "in the last column a lattice."
+    )
     return numbered("tab-7-7-efficiency", caption, grid(head, rows))
 
 
@@ -33,11 +44,14 @@ def terrain():
     ground, rows = limit.terrain(), []
     for title, surface in (("lattice", ground.regular), ("made for it", ground.made)):
         away = ground.differences(surface)
-        rows.append((title, surface.mesh.n_nodes, f"{np.sqrt((away ** 2).mean()):.1f}",
-                     f"{np.abs(away).max():.0f}"))
+        rows.append(
+            (title, surface.mesh.n_nodes, f"{np.sqrt((away**2).mean()):.1f}", f"{np.abs(away).max():.0f}")
+        )
     head = ("Mesh", "Nodes", "Root mean square, m", "Largest, m")
-    caption = (f"Heights from {ground.heights.min():.0f} to {ground.heights.max():.0f} m at "
-               f"{ground.heights.size} samples: how far the surface is from them.")
+    caption = (
+        f"Heights from {ground.heights.min():.0f} to {ground.heights.max():.0f} m at "
+        f"{ground.heights.size} samples: how far the surface is from them."
+    )
     return numbered("tab-7-7-terrain", caption, grid(head, rows))
 
 
@@ -47,23 +61,36 @@ def min_angle():
     for name, u in limit.FUNCTIONS.items():
         free, kept = (limit.made(name, min_angle=a).mesh for a in (None, LEAST_ANGLE))
         meshes = free, kept, plain
-        rows.append((name, *(f"{limit.error(mesh, u):.1e}" for mesh in meshes), kept.n_nodes,
-                     *(_rounded(conditioning.conditions(mesh)[0]) for mesh in meshes)))
+        rows.append(
+            (
+                name,
+                *(f"{limit.error(mesh, u):.1e}" for mesh in meshes),
+                kept.n_nodes,
+                *(_rounded(conditioning.conditions(mesh)[0]) for mesh in meshes),
+            )
+        )
     kinds = f"{LEAST_ANGLE:g}°", "lattice"
     head = ("", "Error, no limit", *kinds, f"Nodes, {kinds[0]}", "Condition, no limit", *kinds)
-    caption = (f"Meshes for {limit.SHOWN} nodes without a limit on angles and with min_angle = "
-               f"{LEAST_ANGLE:g}, and a lattice: $L_2$ error, nodes of the second, and condition number of "
-               "the stiffness matrix.")
+    caption = (
+        f"Meshes for {limit.SHOWN} nodes without a limit on angles and with min_angle = "
+        f"{LEAST_ANGLE:g}, and a lattice: $L_2$ error, nodes of the second, and condition number of "
+        "the stiffness matrix."
+    )
     return numbered("tab-7-7-angle", caption, grid(head, rows))
 
 
 def conditions():
     """Condition numbers on meshes of the report."""
-    rows = [(family, _title(name), mesh.n_nodes, *_row(conditioning.measured()[family, name]))
-            for family, meshes in conditioning.families().items() for name, mesh in meshes.items()]
+    rows = [
+        (family, _title(name), mesh.n_nodes, *_row(conditioning.measured()[family, name]))
+        for family, meshes in conditioning.families().items()
+        for name, mesh in meshes.items()
+    ]
     head = ("From", "Mesh", "Nodes", "Smallest angle", "Condition", "scaled")
-    caption = ("Condition number of the stiffness matrix of the Poisson problem, as it is and scaled by its "
-               "diagonal.")
+    caption = (
+        "Condition number of the stiffness matrix of the Poisson problem, as it is and scaled by its "
+        "diagonal."
+    )
     return numbered("tab-7-7-conditions", caption, grid(head, rows))
 
 
