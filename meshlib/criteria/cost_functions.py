@@ -5,7 +5,7 @@ edges and the opposite nodes of the elements to their left and right.  A cost on
 elements gets the three corners likewise, a cost on nodes the ``Interpolant``.  All
 return one number of at least 0 for each edge, element or node.
 
-The compiled forms in `meshlib.kernels.lop` are tested against these.
+The compiled forms in `meshlib.kernels.costs` are tested against these.
 """
 
 import numpy as np

@@ -8,6 +8,7 @@ import numpy as np
 from .. import checks
 from ..errors import MeshError
 from ..interpolation.interpolant import Interpolant
+from ..kernels import user_costs
 from ..mesh.topology import from_smallest, quadrilaterals
 
 PLACES = ("edge", "element", "node")
@@ -31,7 +32,7 @@ class Criterion:
         over a domain of this extent.  Differences below 1e-11 units are taken for
         rounding noise; by default only relative differences count.
     code : int, optional
-        Number of the compiled form in `meshlib.kernels.codes`; none for one's own.
+        Number of the compiled form in `meshlib.kernels.codes`; none for a user-defined cost.
     geometric : bool
         Whether the cost depends on the nodes alone, so that `prefers` needs no values.
     pointwise : callable, optional
@@ -64,15 +65,13 @@ class Criterion:
 
     @property
     def pointer(self):
-        """The function that kernels call for the cost of one edge or element, if it is one's own."""
+        """The function that kernels call for the cost of one edge or element, if it is user-defined."""
         if self.pointwise is None:
             return None
-        from ..kernels import user_costs
-
         return user_costs.pointer(self.pointwise, self.on)
 
     @property
-    def is_own(self):
+    def is_user_defined(self):
         """Whether a user wrote the cost, so that it may return what is not one."""
         return self.code < 0 or self.pointwise is not None
 

@@ -9,7 +9,7 @@ import numpy as np
 from .. import checks
 from ..errors import MeshError
 from ..geometry import quadrature
-from ..kernels import codes
+from ..kernels import codes, user_costs
 from .cost_functions import element_errors
 from .criterion import PLACES, Criterion
 
@@ -34,8 +34,6 @@ class _ErrorOnElement:
     degree: int
 
     def __call__(self):
-        from ..kernels import user_costs
-
         points, weights = quadrature.rule(self.degree)
         plain = getattr(self.function, "function", self.function)  # a TestFunction wraps its formula
         return user_costs.error_of(plain, tuple(map(tuple, points.tolist())), tuple(weights.tolist()))
@@ -75,13 +73,13 @@ def min_error(function, degree=ERROR_DEGREE):
         cost,
         "L2 error",
         lambda extent, height: height * extent,
-        codes.OWN_ELEMENT,
+        codes.USER_ELEMENT,
         pointwise=_ErrorOnElement(function, degree),
     )
 
 
 def pointwise(name, on, cost, title="", unit=None):
-    """A criterion of one's own, given by the cost of a single edge or element.
+    """A user-defined criterion, given by the cost of a single edge or element.
 
     The procedure then runs as it does for built-in criteria: compiled by numba where
     that is installed.  If numba cannot compile the function, a warning says so, and it
@@ -123,7 +121,7 @@ def pointwise(name, on, cost, title="", unit=None):
     def vectorised(*points):
         return _one_by_one(cost, on, points)
 
-    code = codes.OWN_EDGE if on == "edge" else codes.OWN_ELEMENT
+    code = codes.USER_EDGE if on == "edge" else codes.USER_ELEMENT
     unit = unit or (lambda extent, height: 0.0)
     found = Criterion(name, on, vectorised, title, unit, code, pointwise=_Given(cost))
     if found.pointer is None:
@@ -137,12 +135,7 @@ def pointwise(name, on, cost, title="", unit=None):
 
 def _one_by_one(cost, on, points):
     """The cost of each edge or element, from (n, 3) arrays of its four or three points."""
-    from ..kernels import user_costs
-    from ..kernels.backend import flat, readable
-
     given = user_costs.pointer(_Given(cost), on)
     if given is None:
         return np.array([cost(*numbers) for numbers in np.concatenate(points, axis=1).tolist()])
-    costs = flat(np.empty(len(points[0])))
-    user_costs.evaluated(given, readable(np.concatenate([*points, points[0]][:4], axis=1)), costs)
-    return np.asarray(costs)
+    return user_costs.evaluated(given, np.concatenate([*points, points[0]][:4], axis=1))

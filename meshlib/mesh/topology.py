@@ -12,15 +12,17 @@ node k + 1 to node k + 2 (counted modulo 3), so the element lies to its left::
 import numpy as np
 
 from ..errors import MeshError
+from ..kernels import compiled_for_work
 
 TAILS, HEADS = [1, 2, 0], [2, 0, 1]
-MANY = 10_000  # elements from which on faster ways pay, which give the same
+MANY = 10_000  # elements from which on ways that take longer to prepare are faster; the results are equal
+HALF_EDGES_IN_A_STEP = 5  # half-edges that NumPy sorts in about a microsecond
 
 
 def edge_table(elements, n_nodes):
     """Edges in lexicographic order, and the edge opposite each node of each element."""
-    if len(elements) >= MANY and _kernels_are_compiled():
-        return _edge_table_by_counting(elements, n_nodes)
+    if len(elements) >= MANY and (kernels := compiled_for_work(elements.size / HALF_EDGES_IN_A_STEP)):
+        return _edge_table_by_counting(elements, n_nodes, kernels)
     ends = np.stack([elements[:, TAILS], elements[:, HEADS]]).astype(np.int64)
     keys = ends.min(axis=0) * n_nodes + ends.max(axis=0)
     unique, numbers = np.unique(keys, return_inverse=True)
@@ -28,21 +30,13 @@ def edge_table(elements, n_nodes):
     return edges, numbers.reshape(elements.shape).astype(np.int32)
 
 
-def _kernels_are_compiled():
-    from ..kernels import backend
-
-    return backend.NAME == "numba"
-
-
-def _edge_table_by_counting(elements, n_nodes):
-    """The same by a kernel, which is faster where there is much to do."""
-    from ..kernels import half_edges
-    from ..kernels.backend import readable, writable
-
+def _edge_table_by_counting(elements, n_nodes, kernels):
+    """`edge_table` by a kernel."""
     size, number = elements.size, np.int32
+    readable, writable = kernels.readable, kernels.writable
     slot, edges = writable(np.empty(size, dtype=number)), writable(np.empty(2 * size, dtype=number))
     rooms = (writable(np.zeros(n, dtype=number)) for n in (n_nodes + 1, size, size))
-    count = half_edges.edge_table(readable(elements), *rooms, slot, edges)
+    count = kernels.half_edges.edge_table(readable(elements), *rooms, slot, edges)
     return (
         np.asarray(edges[: 2 * count], dtype=number).reshape(-1, 2),
         np.asarray(slot, dtype=number).reshape(-1, 3),
@@ -79,9 +73,9 @@ def half_edges(element_edges, n_edges, kernels):
     Half-edge 3 t + k is the side of element t opposite its node k; its twin is the same
     side seen from the neighbour, or -1.  Flat, as kernels want them, and theirs to change.
     """
-    slot, nowhere = kernels.backend.flat(element_edges), kernels.half_edges.NOWHERE
+    slot, nowhere = kernels.flat(element_edges), kernels.half_edges.NOWHERE
     twin, half = (
-        kernels.backend.writable(np.full(n, nowhere, dtype=np.int32)) for n in (element_edges.size, n_edges)
+        kernels.writable(np.full(n, nowhere, dtype=np.int32)) for n in (element_edges.size, n_edges)
     )
     kernels.half_edges.twins(slot, twin, half)
     return twin, slot, half

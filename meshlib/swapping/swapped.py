@@ -166,7 +166,7 @@ def swapped(
         runner = AlongCurve(procedure)
     else:
         runner, order = procedure, checks.permutation(order, procedure.mesh.n_edges)
-    if procedure.criterion.is_own:
+    if procedure.criterion.is_user_defined:
         procedure.cost(procedure.mesh)  # refuses what is no cost, also where nothing will be swapped
     with Watch(progress, procedure.mesh.n_edges if progress else 0, "edge") as watch:
         done = runner.run(order, False, schedule, watch)
