@@ -9,7 +9,7 @@ from statistics import median
 from cases import KINDS
 
 from meshlib import plotting
-from meshlib.thesis.tables.numbered import grid, markdown
+from meshlib.thesis.tables.markup import grid, markdown
 
 RESULTS = Path(__file__).with_name("results.json")
 MILLION = 1_000_000

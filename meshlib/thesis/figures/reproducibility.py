@@ -7,7 +7,6 @@ from ..record import printed
 from ..studies import appendix_b as studies
 from ..studies.experiments import EXPERIMENTS
 from ..studies.measures import L2
-from ..tables.appendix_b import title
 
 __all__ = ["study_angle_limits", "study_every_mesh", "study_maxima", "study_means", "study_noise"]
 
@@ -53,7 +52,7 @@ def _distributions(measures):
         for key, row in zip(keys, rows, strict=True):
             for which, ax in zip(measures, row, strict=True):
                 _distribution(ax, studies.orders(key).values(which), float(printed.texts(key)[which]))
-            row[0].set_ylabel(title(key).replace(", ", "\n", 1), rotation=0, ha="right", va="center")
+            row[0].set_ylabel(studies.title(key).replace(", ", "\n", 1), rotation=0, ha="right", va="center")
         for which, ax in zip(measures, rows[0], strict=True):
             ax.set_title(HEADS[which])
     return figure
@@ -90,7 +89,7 @@ def study_noise():
                 color=colour,
                 marker=marker,
                 markersize=4,
-                label=title(key),
+                label=studies.title(key),
             )
         ax.set(xscale="log", xlabel="size of the noise", ylim=(-4, 104))
     axes[0].set_ylabel("trials with a changed digit, per cent")

@@ -136,11 +136,11 @@ TABLES = {
 
 IN_TEXT = {"5.3.2": "Section 5.3.2", "6.2-text": "Section 6.2"}
 
-MISPRINTS = {
-    f"5.1/{column}/aspect_ratio/max": "the largest aspect ratio is that of a right isosceles element, sqrt(3)/2 = 0.8660254; "
+ASPECT_RATIO = (
+    "the largest aspect ratio is that of a right isosceles element, sqrt(3)/2 = 0.8660254; "
     "Tables 5.3, 5.4 and 6.1 print the same value as 0.8660"
-    for column in ("33 pt", "Refined 33 pt")
-}
+)
+MISPRINTS = {f"5.1/{column}/aspect_ratio/max": ASPECT_RATIO for column in ("33 pt", "Refined 33 pt")}
 
 
 def heading(table):

@@ -35,6 +35,14 @@ SMALL_NODES, SMALL_SEED = 10, 0
 SWAPS = tuple(key for key, e in EXPERIMENTS.items() if isinstance(e.operate, Swap))
 
 
+def title(key):
+    """An experiment of edge swapping for people, for example ``SR2, 81, JND-L2``."""
+    experiment = EXPERIMENTS[key]
+    limit = f", {experiment.operate.min_angle:g}°" if experiment.operate.min_angle else ""
+    shuffled = ", reordered" if experiment.shuffled else ""
+    return f"{experiment.function}, {experiment.nodes}, {experiment.operate.title}{limit}{shuffled}"
+
+
 # -- many orders ---------------------------------------------------------------------------
 
 

@@ -12,8 +12,6 @@ import numpy as np
 from ... import Interpolant, criteria, problems, quality, refined
 from ...mesh.quality import angles
 from ...refinement.marking import MARKS
-from ...refinement.splitting import SPLITS
-from ..tables.numbered import grid, numbered
 
 FUNCTIONS = ("SR1", "SR2", "SR3", "DD1")
 START, SHARE, CRITERION = "33", 0.2, "abn"
@@ -104,64 +102,6 @@ def rounds(function, split, mark):
 
 def _error(mesh, u):
     return Interpolant(mesh, u).l2_error(u, rule="exact")
-
-
-# -- tables ----------------------------------------------------------------------------------
-
-
-def table_needed():
-    """Nodes at which the error is a hundredth, by splitting and marking."""
-    rows = [
-        (*names, *(_needed(rounds(function, split, mark)) for mark in MARKINGS))
-        for names, function, split in _lines()
-    ]
-    caption = (
-        "Nodes needed until the $L_2$ error is a hundredth of that on the 33 nodes; in brackets, "
-        f"where a mesh of {MOST_NODES} nodes or more came first, the error there in per cent of it."
-    )
-    return numbered("tab-7-1-nodes", caption, grid(("", "", *(f"by {m}" for m in MARKINGS)), rows))
-
-
-def _lines():
-    """The first cells of each row, function and splitting."""
-    for function in FUNCTIONS:
-        for split in SPLITS:
-            yield (function * (split == next(iter(SPLITS))), split), function, split
-
-
-def _needed(found):
-    share = 100 * found.errors[-1] / found.errors[0]
-    return f"({share:.3g})" if np.isnan(found.needed) else str(int(float(f"{found.needed:.3g}")))
-
-
-def table_reasons():
-    """What the closure adds and what shapes come out, marked by element."""
-    rows = []
-    for names, function, split in _lines():
-        found = rounds(function, split, "element")
-        rows.append(
-            (
-                *names,
-                f"{found.changed:.1f}",
-                f"{found.smallest_angles[-1]:.2f}°",
-                f"{found.mean_largest_angle:.0f}°",
-                f"{largest_kink(function, split):.0f}°",
-            )
-        )
-    head = (
-        "",
-        "",
-        "Elements changed for each one marked",
-        "Smallest angle",
-        "Mean largest angle",
-        "Largest kink",
-    )
-    return numbered(
-        "tab-7-1-reasons",
-        "Marked by element: what has to change with each marked element, the "
-        "angles of the last mesh, and the largest angle between normals there.",
-        grid(head, rows),
-    )
 
 
 def largest_kink(function, split, number=-1):

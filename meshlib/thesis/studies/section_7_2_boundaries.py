@@ -4,10 +4,9 @@ from functools import cache
 
 import numpy as np
 
-from ... import curves, problems, refined, smoothed, swapped, uniformity, valence
+from ... import curves, problems, refined, smoothed, swapped
 from ...refinement.splitting import SPLITS
-from ..tables.numbered import grid, numbered
-from .section_7_5_combining import LIMIT, START, adapted
+from .section_7_5_combining import START, adapted
 
 FUNCTION = "SR1"
 NODES = tuple(2**k for k in range(3, 9))  # along a boundary
@@ -29,30 +28,6 @@ def meshes():
         "combined": adapted(FUNCTION).mesh,
     }
     return found | {split: refined(mesh, u, fraction=1, split=split).mesh for split in SPLITS}
-
-
-def table_measures():
-    """Uniformity and valence of meshes for SR1."""
-    rows = []
-    for name, mesh in meshes().items():
-        un, val = uniformity(mesh), valence(mesh)
-        rows.append(
-            (
-                name,
-                mesh.n_nodes,
-                mesh.n_elements,
-                f"{un.mean():.2f}",
-                f"{un.max():.1f}",
-                f"{val.mean():.3f}",
-                val.max(),
-            )
-        )
-    head = ("Mesh", "Nodes", "Elements", "Uniformity, mean", "max", "Valence, mean", "max")
-    caption = (
-        f"Uniformity and valence for {FUNCTION}: the start mesh, the same nodes swapped, smoothed and "
-        f"combined (no angle below {LIMIT:g}°), and every element split once."
-    )
-    return numbered("tab-7-2-measures", caption, grid(head, rows))
 
 
 # -- the boundary of the domain ------------------------------------------------------------------
@@ -124,26 +99,6 @@ def _derivative(values):
     return np.fft.ifft(2j * np.pi * np.fft.fftfreq(FINE, 1 / FINE) * np.fft.fft(values)).real
 
 
-def table_lost():
-    """n^2 times the area lost, and its limit."""
-    rows = [
-        (
-            name if density == "curvature" else "",
-            title,
-            *(f"{v:.2f}" for v in lost(name, density)),
-            f"{limits(name)[density]:.2f}",
-        )
-        for name in CURVES
-        for density, title in DENSITIES.items()
-    ]
-    head = ("", "The same between neighbours", *(f"$n = {n}$" for n in NODES), "$n \\to \\infty$")
-    return numbered(
-        "tab-7-2-lost",
-        "$n^2$ times the area between the curve and the polygon with $n$ nodes, and the limit by theory.",
-        grid(head, rows),
-    )
-
-
 # -- data on the boundary ------------------------------------------------------------------------
 
 
@@ -175,19 +130,3 @@ def missed_limit(name, function):
     speed = np.hypot(*_derivative(points))
     u_ss = _derivative(_derivative(problems.functions[function](*points)) / speed) / speed
     return float((np.abs(u_ss) ** 0.4 * speed).mean() ** 2.5 / np.sqrt(120))
-
-
-def table_missed(name="trefoil", function="SR1"):
-    """n^2 times the error along the boundary, by the data and by arc length."""
-    limit = f"{missed_limit(name, function):.3f}"
-    cases = (r"$\lvert u_{ss}\rvert^{2/5}$", True, limit), ("arc length", False, "")
-    rows = [
-        (title, *(f"{v:.3f}" for v in missed(name, function, by_data)), last)
-        for title, by_data, last in cases
-    ]
-    head = ("The same between neighbours", *(f"$n = {n}$" for n in NODES), "$n \\to \\infty$")
-    caption = (
-        f"$n^2$ times the $L_2$ error of linear interpolation of {function} along the boundary of the "
-        f"{name} between $n$ nodes."
-    )
-    return numbered("tab-7-2-data", caption, grid(head, rows))

@@ -7,7 +7,7 @@ from ..record import printed
 from ..studies import appendix_b as studies
 from ..studies.experiments import EXPERIMENTS, run
 from ..studies.measures import L2, l2_error
-from .numbered import grid, markdown
+from .markup import grid, markdown, percent
 
 COLUMNS = {
     ("maximum_angle", "mean"): "angle, mean",
@@ -18,14 +18,6 @@ COLUMNS = {
     ("aspect_ratio", "max"): "max",
     L2: "$L_2$",
 }
-
-
-def title(key):
-    """An experiment of edge swapping for people, for example ``SR2, 81, JND-L2``."""
-    experiment = EXPERIMENTS[key]
-    limit = f", {experiment.operate.min_angle:g}°" if experiment.operate.min_angle else ""
-    shuffled = ", reordered" if experiment.shuffled else ""
-    return f"{experiment.function}, {experiment.nodes}, {experiment.operate.title}{limit}{shuffled}"
 
 
 def orders():
@@ -47,7 +39,7 @@ def orders():
         spread = (f"{error:.5f}" for error in np.quantile(errors, (0, 0.5, 1)))
         rows.append(
             (
-                title(key),
+                studies.title(key),
                 len(study.optima),
                 *spread,
                 column[L2],
@@ -63,13 +55,8 @@ def shares():
     rows = []
     for key in studies.SWAPS:
         study, column = studies.orders(key), printed.texts(key)
-        rows.append((title(key), *(percent(study.share(which, column[which])) for which in COLUMNS)))
+        rows.append((studies.title(key), *(percent(study.share(which, column[which])) for which in COLUMNS)))
     return markdown(grid(("Experiment", *COLUMNS.values()), rows))
-
-
-def percent(share):
-    """A share as a percentage, with two decimals where it is nearly, but not, 0 or 1."""
-    return f"{100 * share:.2f} %" if 0 < min(share, 1 - share) < 0.01 else f"{100 * share:.0f} %"
 
 
 def dependence():
@@ -77,7 +64,7 @@ def dependence():
     rows = []
     for key in filter(printed.texts, EXPERIMENTS):
         words = studies.depends_on(key)
-        name = title(key) if key in studies.SWAPS else key.replace("-", ", ", 2).replace("-", " ")
+        name = studies.title(key) if key in studies.SWAPS else key.replace("-", ", ", 2).replace("-", " ")
         rows.append((name, *(words.get(which, "") for which in COLUMNS)))
     return markdown(grid(("Experiment", *COLUMNS.values()), rows))
 
@@ -126,7 +113,7 @@ def optimum():
         error = l2_error(studies.best(function, "l2", 2).mesh, problems.functions[function])
         least = study.optima.costs.min()
         values = (f"{value:.4f}" for value in (cost, least, best))
-        rows.append((title(key), swap.title, *values, _excess(cost, best)))
+        rows.append((studies.title(key), swap.title, *values, _excess(cost, best)))
         rows.append(
             (
                 "",

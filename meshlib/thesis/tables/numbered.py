@@ -7,9 +7,9 @@ metadata ``{"mystnb": {"markdown_format": "myst"}}``.
 import numpy as np
 
 from ... import problems
-from ...errors import missing_extra
 from .. import scoreboard
 from ..record import printed
+from .markup import grid, markdown, numbered
 
 HEAD = ("Mesh", "Measure", "Printed", "Reproduced", "Verdict")
 CAPTIONS = {
@@ -123,23 +123,3 @@ def _verdicts(lines):
     """One word if all agree, else one for each number."""
     verdicts = [line.verdict for line in lines]
     return ", ".join(verdicts if len(set(verdicts)) > 1 else verdicts[:1])
-
-
-def grid(head, rows):
-    """A table in Markdown."""
-    lines = [head, ("---",) * len(head), *rows]
-    return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
-
-
-def numbered(name, caption, body):
-    """A table in Markdown with a number, a caption, and a name to refer to it."""
-    return markdown(f"```{{table}} {caption}\n:name: {name}\n:align: center\n\n{body}\n```")
-
-
-def markdown(text):
-    """The text as a notebook shows it."""
-    try:
-        from IPython.display import Markdown
-    except ImportError:
-        raise missing_extra("IPython", "widgets") from None
-    return Markdown(text)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..studies import section_7_3_alignment as alignment
-from .numbered import grid, numbered
+from .markup import grid, numbered
 
 
 def slopes():

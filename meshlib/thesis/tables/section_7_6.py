@@ -3,8 +3,7 @@
 import numpy as np
 
 from ..studies import section_7_6_beyond as beyond
-from .appendix_b import percent
-from .numbered import grid, numbered
+from .markup import grid, numbered, percent
 
 
 def distances():

@@ -5,7 +5,7 @@ import numpy as np
 from ..studies import section_7_7a_limit as limit
 from ..studies import section_7_7b_conditioning as conditioning
 from ..studies.section_7_7b_conditioning import LEAST_ANGLE
-from .numbered import grid, numbered
+from .markup import grid, numbered
 
 
 def efficiencies():
