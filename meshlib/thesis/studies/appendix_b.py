@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from ... import Mesh, criteria, problems
+from ... import Mesh, criteria, delaunay, problems
 from ...interpolation.interpolant import squared_errors
 from ...optima.enumeration import enumerated
 from ...optima.many_orders import LocalOptima, local_optima, order_of
@@ -17,7 +17,7 @@ from ...support.random_numbers import Draws
 from ..record import printed
 from ..record.printed import texts
 from .experiments import EXPERIMENTS, Swap, natural, run
-from .measures import L2, Remembered, measured, measured_all
+from .measures import L2, Remembered, l2_error, measured, measured_all
 
 ORDERS = 10_000
 SEED = 2001
@@ -251,9 +251,10 @@ def every_mesh():
         Number of random edge orders that end in each mesh.
     """
     start, function = small_mesh(), problems.functions["SR2"]
-    meshes = [Mesh._trusted(start.nodes, elements) for elements in enumerated(start)]
+    meshes = [Mesh(start.nodes, elements) for elements in enumerated(start)]
     costs = np.array([np.linalg.norm(criteria.costs(m, function, "abn"), 1) for m in meshes])
-    errors = measured_all(meshes, function)[L2]
+    remembered = Remembered(function)
+    errors = np.array([l2_error(mesh, remembered) for mesh in meshes])
     number = {mesh.elements.tobytes(): k for k, mesh in enumerate(meshes)}
     found = local_optima(start, function, "abn", 1, ORDERS, SEED)
     reached = np.zeros(len(meshes), dtype=np.int64)
@@ -263,8 +264,6 @@ def every_mesh():
 
 
 def small_mesh(count=SMALL_NODES, seed=SMALL_SEED):
-    """The corners of the square and random nodes, so many together."""
-    from ... import delaunay
-
+    """The Delaunay mesh of the corners of the unit square and random nodes inside, ``count`` in all."""
     inside = Draws(seed).uniform((count - 4, 2))
     return delaunay(np.vstack([[[0, 0], [1, 0], [1, 1], [0, 1]], inside]))

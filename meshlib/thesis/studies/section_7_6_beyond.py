@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 
 from ... import Mesh, annealed, criteria, local_optima, optimal, problems, swapped
+from ...mesh.topology import from_smallest, quadrilaterals
 from ...optima.enumeration import enumerated
 from .appendix_b import small_mesh
 from .measures import l2_error
@@ -73,7 +74,7 @@ def side_by_side(start, elements):
     """Many meshes of the same nodes as one of many parts."""
     count, n = len(elements), start.n_nodes
     rows = elements + n * np.arange(count, dtype=np.int32)[:, None, None]
-    return Mesh._trusted(np.tile(start.nodes, (count, 1)), rows.reshape(-1, 3))
+    return Mesh(np.tile(start.nodes, (count, 1)), rows.reshape(-1, 3))
 
 
 def costs_of_parts(start, every, values, criterion, norm):
@@ -87,9 +88,13 @@ def costs_of_parts(start, every, values, criterion, norm):
     True
     """
     count = every.n_elements // start.n_elements
-    vector = criterion.costs(every, np.tile(values, count))
-    first = every.edges[:, 0] if criterion.on == "edge" else every.elements[:, 0]
-    return np.bincount(first // start.n_nodes, vector**norm, count) ** (1 / norm)
+    if criterion.on == "edge":
+        corners = quadrilaterals(every, np.flatnonzero(~every.boundary))[0][:, [1, 2, 0, 3]]
+    else:
+        corners = from_smallest(every.elements)
+    points = np.column_stack([every.nodes, np.tile(values, count)])
+    costs = criterion.cost(*points[corners.T])
+    return np.bincount(corners[:, 0] // start.n_nodes, costs**norm, count) ** (1 / norm)
 
 
 @cache
