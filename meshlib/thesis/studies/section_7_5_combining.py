@@ -1,30 +1,32 @@
-"""Algorithm 7.5.1 (section 7.5): a mesh on which it cycles, that it ends, and what it reaches."""
+"""Algorithm 7.5.1 (section 7.5): a mesh on which it cycles, and the errors that it reaches."""
 
 from functools import cache
 
 import numpy as np
 
-from ... import MeshError, combined, delaunay, problems
-from ...combination.combined import LEAST_GAIN
+from ... import Mesh, MeshError, combined, delaunay, problems
+from ...combination.combined import LEAST_GAIN, Combination
 from ...mesh.quality import angles
 
 FUNCTIONS = ("SR1", "SR2", "SR3", "DD1")
 START = "33"
 WAYS = {"swapped": "swap", "moved": "move", "combined": ("swap", "move")}
-LIMIT = 10.0  # degrees
-POWERS = tuple(range(1, 7))  # of the least gain
+LIMIT = 10.0  # degrees, the smallest angle that a step may make
+POWERS = tuple(range(1, 7))  # k in least gains of 10^-k
 MOST_TURNS = 20
-FLAT = 0.01  # degrees
+FLAT = 0.01  # degrees, an angle below which an element counts as flat
 CYCLE_NODES = ((0, 0), (6, 0), (6, 3), (0, 3), (4, 1), (5, 2))
 
 
-def ridge(x, y):
-    """Its kink is the diagonal x = y."""
+def ridge(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The distance |x - y|, which has a kink along the diagonal x = y."""
     return np.abs(x - y)
 
 
-def cycle(rim=False):
-    """The combined strategy on the mesh on which, as written, it comes back to where it was.
+def cycle(rim: bool = False) -> Combination:
+    """The combined strategy on a mesh to which, as written, it comes back.
+
+    With ``rim`` the costs on the rim of a patch count, and it does not.
 
     Examples
     --------
@@ -36,7 +38,9 @@ def cycle(rim=False):
 
 
 @cache
-def adapted(function, name="combined", limit=LIMIT, least_gain=LEAST_GAIN):
+def adapted(
+    function: str, name: str = "combined", limit: float | None = LIMIT, least_gain: float = LEAST_GAIN
+) -> Combination:
     """The combined strategy, or one of its ways alone, on the 33 nodes by the L2 error.
 
     Parameters
@@ -47,6 +51,7 @@ def adapted(function, name="combined", limit=LIMIT, least_gain=LEAST_GAIN):
     limit : float or None
         Smallest angle, in degrees, that a step may make.
     least_gain : float
+        Gain that a step must have, relative to the indicator at the start.
 
     Returns
     -------
@@ -56,8 +61,8 @@ def adapted(function, name="combined", limit=LIMIT, least_gain=LEAST_GAIN):
     return combined(problems.mesh(START), u, ways=WAYS[name], min_angle=limit, least_gain=least_gain)
 
 
-def in_turn(function):
-    """The mesh after swapping alone until no patch gains, then moving alone, and so on."""
+def in_turn(function: str) -> Mesh:
+    """The mesh after swapping alone and moving alone by turns, until neither gains on any patch."""
     u, mesh = problems.functions[function], problems.mesh(START)
     for _ in range(MOST_TURNS):
         before = mesh
@@ -68,14 +73,14 @@ def in_turn(function):
     raise MeshError("turns", f"no end after {MOST_TURNS} turns")
 
 
-def compared(function):
-    """Meshes on the 33 nodes: the start, each way alone, both in turn, combined, and that without a limit."""
+def compared(function: str) -> tuple[Mesh, ...]:
+    """Six meshes of 33 nodes: start, swapped, moved, in turn, combined, combined without a limit."""
     alone = (adapted(function, name).mesh for name in ("swapped", "moved"))
     free = adapted(function, limit=None).mesh
     return problems.mesh(START), *alone, in_turn(function), adapted(function).mesh, free
 
 
-def flat_at_the_boundary(mesh):
+def flat_at_the_boundary(mesh: Mesh) -> tuple[int, int]:
     """Number of elements at the boundary with an angle below `FLAT`, and of all elements there."""
     there = mesh.boundary[mesh.element_edges].any(axis=1)
     flat = np.degrees(angles(mesh.corners).min(axis=1)) < FLAT

@@ -75,11 +75,11 @@ def quadrature():
     rows = []
     for number in printed.numbers():
         if number.measure == L2[0]:
-            *by_grid, settled, searched = studies.quadrature(number)
+            by_grid, settled, fitted = studies.quadrature(number)
             cells = [_marked(value, number.text) for value in by_grid]
             rows.append(
                 (
-                    f"{number.table}, {number.column}" + searched * " (fitted)",
+                    f"{number.table}, {number.column}" + fitted * " (fitted)",
                     number.text,
                     *cells,
                     printed.digits(settled, number.text),
