@@ -222,10 +222,11 @@ def error_far_from_boundary(rise: int, run: int) -> float:
 
 # -- other constants, other orders of steps ---------------------------------------------------------
 
+DEFAULT = (0, 100, 0.4)  # first, second, power, as in `DataSprings`
 CONSTANTS = (  # first, second, power
     (0, 1, 0.4),
     (0, 10, 0.4),
-    (0, 100, 0.4),
+    DEFAULT,
     (0, 1000, 0.4),
     (100, 0, 0.4),
     (0, 10, 1.0),

@@ -206,6 +206,12 @@ def strip_error(function: Function, nodes: int) -> float:
     return strip_constant(function) / ((nodes - 2) / 2) ** 2
 
 
+def over_strips(name: str) -> np.ndarray:
+    """L2 errors of the meshes `made` for a function of `DIRECTED` over those of parallel strips."""
+    u = DIRECTED[name]
+    return np.array([error(made(name, n).mesh, u) / strip_error(u, n) for n in DIRECTED_NODES])
+
+
 # -- terrain and a hole --------------------------------------------------------------------------
 
 TERRAIN, TERRAIN_NODES = "jacksboro_fault_dem.npz", 1024  # sample data of matplotlib

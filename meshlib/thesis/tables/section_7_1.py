@@ -1,13 +1,21 @@
 """The tables of section 7.1, every cell computed."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ...refinement.splitting import SPLITS
 from ..studies import section_7_1_splittings as splittings
 from .markup import grid, numbered
 
+if TYPE_CHECKING:
+    from IPython.display import Markdown
 
-def needed():
+
+def needed() -> Markdown:
     """Nodes at which the error is a hundredth, by splitting and marking."""
     rows = [
         (*names, *(_needed(splittings.rounds(function, split, mark)) for mark in splittings.MARKINGS))
@@ -21,28 +29,22 @@ def needed():
     return numbered("tab-7-1-nodes", caption, grid(head, rows))
 
 
-def _lines():
-    """The first cells of each row, function and splitting."""
+def _lines() -> Iterator[tuple[tuple[str, str], str, str]]:
+    """The first two cells of each row, its function and its splitting."""
     for function in splittings.FUNCTIONS:
         for split in SPLITS:
             yield (function * (split == next(iter(SPLITS))), split), function, split
 
 
-def _needed(found):
+def _needed(found: splittings.Rounds) -> str:
     share = 100 * found.errors[-1] / found.errors[0]
     return f"({share:.3g})" if np.isnan(found.needed) else str(int(float(f"{found.needed:.3g}")))
 
 
-def reasons():
+def reasons() -> Markdown:
     """What the closure adds and what shapes come out, marked by element."""
-    head = (
-        "",
-        "",
-        "Elements changed for each one marked",
-        "Smallest angle",
-        "Mean largest angle",
-        "Largest kink",
-    )
+    angles = "Smallest angle", "Mean largest angle", "Largest kink"
+    head = ("", "", "Elements changed for each one marked", *angles)
     caption = (
         "Marked by element: what has to change with each marked element, the "
         "angles of the last mesh, and the largest angle between normals there."
@@ -51,7 +53,7 @@ def reasons():
     return numbered("tab-7-1-reasons", caption, grid(head, rows))
 
 
-def _reasons(function, split):
+def _reasons(function: str, split: str) -> tuple[str, ...]:
     found = splittings.rounds(function, split, "element")
     return (
         f"{found.changed:.1f}",

@@ -1,15 +1,23 @@
 """The tables of section 7.2, every cell computed."""
 
-from ... import uniformity, valence
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from ... import Mesh, uniformity, valence
 from ..studies import section_7_2_boundaries as boundaries
 from ..studies.section_7_5_combining import LIMIT
 from .markup import grid, numbered
+
+if TYPE_CHECKING:
+    from IPython.display import Markdown
 
 BETWEEN_NEIGHBOURS = "The same between neighbours"
 COUNTS = tuple(f"$n = {n}$" for n in boundaries.NODES)
 
 
-def measures():
+def measures() -> Markdown:
     """Uniformity and valence of meshes for SR1."""
     head = ("Mesh", "Nodes", "Elements", "Uniformity, mean", "max", "Valence, mean", "max")
     caption = (
@@ -20,13 +28,13 @@ def measures():
     return numbered("tab-7-2-measures", caption, grid(head, rows))
 
 
-def _measures(mesh):
+def _measures(mesh: Mesh) -> tuple:
     un, val = uniformity(mesh), valence(mesh)
     areas = f"{un.mean():.2f}", f"{un.max():.1f}"
     return mesh.n_nodes, mesh.n_elements, *areas, f"{val.mean():.3f}", val.max()
 
 
-def lost():
+def lost() -> Markdown:
     """n^2 times the area lost, and its limit."""
     head = ("", BETWEEN_NEIGHBOURS, *COUNTS, "$n \\to \\infty$")
     caption = (
@@ -40,12 +48,12 @@ def lost():
     return numbered("tab-7-2-lost", caption, grid(head, rows))
 
 
-def _lost(name, density):
+def _lost(name: str, density: str) -> Iterator[str]:
     found = *boundaries.lost(name, density), boundaries.limits(name)[density]
     return (f"{value:.2f}" for value in found)
 
 
-def missed(name="trefoil", function="SR1"):
+def missed(name: str = "trefoil", function: str = "SR1") -> Markdown:
     """n^2 times the error along the boundary, by the data and by arc length."""
     head = (BETWEEN_NEIGHBOURS, *COUNTS, "$n \\to \\infty$")
     caption = (

@@ -1,12 +1,20 @@
 """The tables of section 7.5, every cell computed."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
 from ... import problems
 from ..studies import section_7_5_combining as combining
 from ..studies.appendix_b import settled_error
 from .markup import grid, numbered
 
+if TYPE_CHECKING:
+    from IPython.display import Markdown
 
-def cycle():
+
+def cycle() -> Markdown:
     """Each step of the cycle, with the rim of the patches left out and counted."""
     head = ("Rim", "Step", "Gain of the patch", "$J$ of the mesh before", "after")
     caption = "Two steps on a mesh of six nodes, criterion JND-$L_2$."
@@ -14,7 +22,7 @@ def cycle():
     return numbered("tab-7-5-cycle", caption, grid(head, rows))
 
 
-def _cycle(rim, title):
+def _cycle(rim: bool, title: str) -> Iterator[tuple]:
     found = combining.cycle(rim)
     before = [found.indicator, *found.steps["indicator"]]
     for k, step in enumerate(found.steps):
@@ -22,7 +30,7 @@ def _cycle(rim, title):
         yield title * (k == 0), f"{step['way']} around node {step['node']}", *costs
 
 
-def errors():
+def errors() -> Markdown:
     """L2 errors at the start, and after each way alone, in turn, and patch by patch."""
     head = ("", "Start", "Swapped", "Moved", "In turn", "Combined", "No limit", "Flat at the boundary")
     caption = (
@@ -34,13 +42,13 @@ def errors():
     return numbered("tab-7-5-errors", caption, grid(head, rows))
 
 
-def _errors(function):
+def _errors(function: str) -> Iterator[str]:
     u, meshes = problems.functions[function], combining.compared(function)
     yield from (f"{settled_error(mesh, u):.4f}" for mesh in meshes)
     yield "{} of {}".format(*combining.flat_at_the_boundary(meshes[-1]))
 
 
-def gains(function="SR1"):
+def gains(function: str = "SR1") -> Markdown:
     """Steps and error against the gain that a step must have."""
     head = ("Least gain $\\delta/J_0$", "Steps", "Sweeps", "$L_2$ error")
     caption = (
@@ -50,7 +58,7 @@ def gains(function="SR1"):
     return numbered("tab-7-5-gains", caption, grid(head, rows))
 
 
-def _gains(function, power):
+def _gains(function: str, power: int) -> tuple:
     found = combining.adapted(function, limit=None, least_gain=10.0**-power)
     error = settled_error(found.mesh, problems.functions[function])
     return len(found.steps), found.sweeps, f"{error:.5f}"
