@@ -22,4 +22,4 @@ def styles():
 
 
 def _joined(*names):
-    return "\n".join((HERE / name).read_text(encoding="utf-8") for name in names)
+    return "\n".join((HERE / "js" / name).read_text(encoding="utf-8") for name in names)
