@@ -1,13 +1,23 @@
 // The edge or element under the pointer, or chosen by arrow keys, and its cost.
 
-const NEAR = 7;                                      // pixels from an edge that are on it
-const DIGITS = 4;
+import { edgeCost, elementCost, meanOfSides } from "./costs.js";
+import { strokeEdges, TRIED } from "./drawing.js";
+import { anglesOf, cornersOf, DEGREE, endsOf, sidesOf } from "./mesh.js";
 
-// The edge of a mesh nearest to a place on the page, if it is near; else the element there.
+/** @import { Mesh, Pair, Pen, Points, Shown, Target } from "./types" */
+
+const NEAR = 7;                                      // pixels from an edge at which it is meant
+const DIGITS = 4;                                    // significant digits of costs and angles
+
+// -- what is meant ---------------------------------------------------------------------------
+
+/** The edge of a mesh nearest to a place on the page, if it is near; else the element there.
+ * @type {(shown: Shown, px: number, py: number) => Target} */
 function targetAt({ mesh, place }, px, py) {
   let edge = -1, least = NEAR;
   for (let e = 0; e < mesh.edges; e++) {
-    const distance = toSegment(px, py, ...endsOf(mesh, place, e));
+    const [p, q] = endsOf(mesh, e).map((n) => [place.px(mesh.x[n]), place.py(mesh.y[n])]);
+    const distance = toSegment(px, py, p, q);
     if (distance < least) [edge, least] = [e, distance];
   }
   if (edge >= 0) return { edge };
@@ -16,17 +26,15 @@ function targetAt({ mesh, place }, px, py) {
   return {};
 }
 
-function endsOf({ x, y, ends }, place, e) {
-  const [p, q] = [ends[2 * e], ends[2 * e + 1]];
-  return [place.px(x[p]), place.py(y[p]), place.px(x[q]), place.py(y[q])];
-}
-
-function toSegment(px, py, ax, ay, bx, by) {
+/** Distance of a point from the segment between a and b.
+ * @type {(px: number, py: number, a: number[], b: number[]) => number} */
+function toSegment(px, py, [ax, ay], [bx, by]) {
   const [ux, uy] = [bx - ax, by - ay], along = ((px - ax) * ux + (py - ay) * uy) / (ux * ux + uy * uy);
   const share = Math.min(Math.max(along, 0), 1);
   return Math.hypot(px - ax - share * ux, py - ay - share * uy);
 }
 
+/** @type {(mesh: Mesh, t: number, px: number, py: number) => boolean} */
 function isInside({ x, y, elements }, t, px, py) {
   return [0, 1, 2].every((k) => {
     const p = elements[3 * t + k], q = elements[3 * t + (k + 1) % 3];
@@ -34,60 +42,80 @@ function isInside({ x, y, elements }, t, px, py) {
   });
 }
 
-// What there is to say of a target; costs of edges are averaged over the sides of an element.
-function textOf({ mesh, scene }, { edge, element: t }) {
-  const { cost, on } = scene, name = cost.includes("-") ? cost : cost.toUpperCase();
-  const digits = (value) => Number(value.toPrecision(DIGITS));
-  if (edge !== undefined) {
-    const at = [0, 1].map((k) => pointText(mesh, mesh.ends[2 * edge + k])).join(" to ");
-    if (mesh.sides[2 * edge + 1] < 0) return `Edge ${at}, on the boundary.`;
-    const beside = on === "edge" ? [] : elementsAt(mesh, edge).map((s) => digits(ELEMENT_COSTS[cost](mesh, s)));
-    return `Edge ${at}: ` + (on === "edge" ? `${name} ${digits(edgeCost(mesh, cost, edge))}.`
-                                           : `${name} of its elements ${beside.join(" and ")}.`);
-  }
-  if (t === undefined) return "";
-  const largest = digits(Math.max(...anglesOf(mesh, t)) / DEGREE);
-  return `Element with an angle of ${largest}°: `
-    + (on === "edge" ? `mean ${name} of its edges ${digits(meanOfSides(mesh, cost, t))}.`
-                     : `${name} ${digits(ELEMENT_COSTS[cost](mesh, t))}.`);
+// -- what is said of it ----------------------------------------------------------------------
+
+/** What there is to say of an edge or element.
+ * @type {(shown: Shown, target: Target) => string} */
+function textOf(shown, { edge, element }) {
+  if (edge !== undefined) return edgeText(shown, edge);
+  return element === undefined ? "" : elementText(shown, element);
 }
 
+/** The cost of an edge, or those of the elements that meet there.
+ * @type {(shown: Shown, e: number) => string} */
+function edgeText({ mesh, scene }, e) {
+  const at = endsOf(mesh, e).map((n) => pointText(mesh, n)).join(" to "), name = nameOf(scene.cost);
+  if (sidesOf(mesh, e)[1] < 0) return `Edge ${at}, on the boundary.`;
+  if (scene.on === "edge") return `Edge ${at}: ${name} ${digits(edgeCost(mesh, scene, e))}.`;
+  const costs = sidesOf(mesh, e).map((t) => digits(elementCost(mesh, scene, t)));
+  return `Edge ${at}: ${name} of its elements ${costs.join(" and ")}.`;
+}
+
+/** The cost of an element, or the mean cost of its edges.
+ * @type {(shown: Shown, t: number) => string} */
+function elementText({ mesh, scene }, t) {
+  const largest = digits(Math.max(...anglesOf(mesh, t)) / DEGREE), name = nameOf(scene.cost);
+  const cost = scene.on === "edge" ? `mean ${name} of its edges ${digits(meanOfSides(mesh, scene, t))}`
+    : `${name} ${digits(elementCost(mesh, scene, t))}`;
+  return `Element with an angle of ${largest}°: ${cost}.`;
+}
+
+/** Abbreviations such as "jnd" are written in capitals, names such as "smallest-angle" are not.
+ * @type {(cost: string) => string} */
+const nameOf = (cost) => (cost.includes("-") ? cost : cost.toUpperCase());
+
+/** @type {(value: number) => number} */
+const digits = (value) => Number(value.toPrecision(DIGITS));
+
+/** @type {(points: Points, n: number) => string} */
 const pointText = ({ x, y }, n) => `(${x[n].toFixed(2)}, ${y[n].toFixed(2)})`;
-const elementsAt = ({ sides }, e) => [sides[2 * e], sides[2 * e + 1]];
 
-function meanOfSides(mesh, cost, t) {
-  let total = 0;
-  for (let e = 0; e < mesh.edges; e++) if (elementsAt(mesh, e).includes(t)) total += edgeCost(mesh, cost, e);
-  return total / 3;
-}
-
-function drawTarget(pen, shown, { edge, element: t }) {
-  const { mesh } = shown, lines = [];
-  if (edge !== undefined) lines.push([mesh.ends[2 * edge], mesh.ends[2 * edge + 1]]);
-  if (t !== undefined) {
-    const [p, q, r] = cornersOf(mesh, t);
+/** Marks an edge or element.
+ * @type {(pen: Pen, shown: Shown, target: Target) => void} */
+export function drawTarget(pen, shown, { edge, element }) {
+  /** @type {Pair[]} */
+  const lines = [];
+  if (edge !== undefined) lines.push(endsOf(shown.mesh, edge));
+  if (element !== undefined) {
+    const [p, q, r] = cornersOf(shown.mesh, element);
     lines.push([p, q], [q, r], [r, p]);
   }
   strokeEdges(pen, shown, "white", 6, lines);
   strokeEdges(pen, shown, TRIED, 3.5, lines);
 }
 
-// Has a canvas tell what it shows: `current` gives the mesh on it, `tell` takes target and text.
-function makeInspectable(canvas, current, tell) {
+// -- pointer and keys --------------------------------------------------------------------------
+
+/** Has a canvas tell what it shows: `current` gives what is on it, `tell` takes target and text.
+ * @type {(canvas: HTMLCanvasElement, current: () => Shown | null,
+ *         tell: (target: Target, text: string) => void) => void} */
+export function makeInspectable(canvas, current, tell) {
   let last = "", edge = -1;
-  const say = (target) => {
-    const text = current() ? textOf(current(), target) : "";
+  const say = (/** @type {Target} */ target) => {
+    const shown = current(), text = shown ? textOf(shown, target) : "";
     if (text !== last) tell(target, last = text);
   };
-  canvas.addEventListener("pointermove", ({ offsetX, offsetY }) =>
-    current() && say(targetAt(current(), offsetX, offsetY)));
+  canvas.addEventListener("pointermove", ({ offsetX, offsetY }) => {
+    const shown = current();
+    if (shown) say(targetAt(shown, offsetX, offsetY));
+  });
   canvas.addEventListener("pointerleave", () => say({}));
   canvas.addEventListener("blur", () => say({}));
   canvas.addEventListener("keydown", (event) => {
-    const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (!step || !current()) return;
+    const step = Number(event.key === "ArrowRight") - Number(event.key === "ArrowLeft"), shown = current();
+    if (!step || !shown) return;
     event.preventDefault();
-    edge = (edge + step + current().mesh.edges) % current().mesh.edges;
+    edge = (edge + step + shown.mesh.edges) % shown.mesh.edges;
     say({ edge });
   });
 }

@@ -1,56 +1,26 @@
-// What a mesh is worth: edges, costs, errors and shapes, as in meshlib, from the elements alone.
+// How well a mesh represents the function, and how well its elements are shaped, as in meshlib.
 
-const EQUILATERAL = Math.PI / 3, DEGREE = Math.PI / 180;
-const ON_EDGE = 1e-9;                                // a grid point so far outside is on the edge
+import { GRID } from "./atlas.js";
+import { EQUILATERAL } from "./costs.js";
+import { anglesOf, cornersOf, DEGREE, gradient, sum } from "./mesh.js";
+
+/** @import { Box, Mesh, Numbered, Pair, Points, Shape, Triple } from "./types" */
+
+const ON_EDGE = 1e-9;                                // spacings of the grid: a point so near an edge is on it
 const FLAT = 1e-12;                                  // area over squared size, of rounding alone
-
-const sum = (numbers) => numbers.reduce((total, number) => total + number, 0);
-
-// The mesh of a frame: coordinates of the atlas, elements, and edges with their two elements.
-function meshOf({ atlas }, { elements, swaps, tried }) {
-  const { x, y, u } = atlas;
-  return { x, y, u, elements, swaps, tried, ...edgesOf(elements),
-           nodes: Uint32Array.from(new Set(elements)), size: elements.length / 3 };
-}
-
-function edgesOf(elements) {
-  const numbers = new Map(), ends = [], sides = [];
-  for (let h = 0; h < elements.length; h++) {
-    const t = Math.floor(h / 3), p = elements[h], q = elements[3 * t + (h + 1) % 3];
-    const key = Math.min(p, q) * 2 ** 26 + Math.max(p, q), known = numbers.get(key);
-    if (known === undefined) {
-      numbers.set(key, sides.length / 2);
-      ends.push(p, q);
-      sides.push(t, -1);
-    } else sides[2 * known + 1] = t;
-  }
-  return { ends, sides, edges: sides.length / 2 };
-}
-
-const cornersOf = ({ elements }, t) => elements.subarray(3 * t, 3 * t + 3);
-const opposite = (mesh, t, p, q) => cornersOf(mesh, t).find((n) => n !== p && n !== q);
 
 // -- errors on the grid -------------------------------------------------------------------
 
-function boxOf({ x, y, nodes }) {
-  const box = { low: [Infinity, Infinity], high: [-Infinity, -Infinity] };
-  for (const n of nodes) {
-    [x[n], y[n]].forEach((value, k) => {
-      box.low[k] = Math.min(box.low[k], value);
-      box.high[k] = Math.max(box.high[k], value);
-    });
-  }
-  return { ...box, size: Math.max(box.high[0] - box.low[0], box.high[1] - box.low[1]) };
-}
-
-// |u - u_h| at the points of the grid, row by row from below.
-function errorOf(mesh, truth, { low, high }) {
-  const error = new Float64Array(truth.length);
+/** |u - u_h| at the points of the grid, row by row from below.
+ * @type {(mesh: Mesh, truth: Float32Array, box: Box) => Float64Array} */
+export function errorOf(mesh, truth, { low, high }) {
+  const error = new Float64Array(truth.length), { x, y, u } = mesh;
   const [dx, dy] = [0, 1].map((k) => (high[k] - low[k]) / (GRID - 1));
   for (let t = 0; t < mesh.size; t++) {
-    const { x, y, u } = mesh, [p, q, r] = cornersOf(mesh, t), [g, h] = gradient(mesh, p, q, r);
+    const [p, q, r] = cornersOf(mesh, t), [g, h] = gradient(mesh, p, q, r);
     if (isFlat(mesh, p, q, r)) continue;             // its neighbours have its points
-    const xs = [x[p], x[q], x[r]], ys = [y[p], y[q], y[r]];
+    /** @type {[Triple, Triple]} */
+    const [xs, ys] = [[x[p], x[q], x[r]], [y[p], y[q], y[r]]];
     const last = Math.min(GRID - 1, Math.floor((Math.max(...ys) - low[1]) / dy + ON_EDGE));
     for (let j = Math.max(0, Math.ceil((Math.min(...ys) - low[1]) / dy - ON_EDGE)); j <= last; j++) {
       const v = low[1] + j * dy, [left, right] = crossing(xs, ys, v, ON_EDGE * dy);
@@ -64,12 +34,14 @@ function errorOf(mesh, truth, { low, high }) {
   return error;
 }
 
+/** @type {(points: Points, p: number, q: number, r: number) => boolean} */
 function isFlat({ x, y }, p, q, r) {
   const [ex, ey, fx, fy] = [x[q] - x[p], y[q] - y[p], x[r] - x[p], y[r] - y[p]];
   return Math.abs(ex * fy - ey * fx) < FLAT * (ex * ex + ey * ey + fx * fx + fy * fy);
 }
 
-// Where the line y = v enters and leaves a triangle.
+/** Where the line y = v enters and leaves the triangle with corners xs, ys.
+ * @type {(xs: Triple, ys: Triple, v: number, slack: number) => Pair} */
 function crossing(xs, ys, v, slack) {
   let left = Infinity, right = -Infinity;
   for (let k = 0; k < 3; k++) {
@@ -83,103 +55,26 @@ function crossing(xs, ys, v, slack) {
   return [left, right];
 }
 
-// By the trapezium rule.
+/** L2 norm of an error on the grid, by the trapezium rule: half weight on an edge of the box, a
+ * quarter in a corner.
+ * @type {(error: Float64Array, box: Box) => number} */
 function l2Of(error, { low, high }) {
-  const area = (high[0] - low[0]) * (high[1] - low[1]) / (GRID - 1) ** 2, edge = [0, GRID - 1];
-  let sum = 0;
+  const area = (high[0] - low[0]) * (high[1] - low[1]) / (GRID - 1) ** 2;
+  const onEdge = (/** @type {number} */ k) => Number(k === 0 || k === GRID - 1);
+  let total = 0;
   error.forEach((e, k) => {
-    const halves = edge.includes(k % GRID) + edge.includes(Math.floor(k / GRID));
-    sum += e * e / 2 ** halves;
+    total += e * e / 2 ** (onEdge(k % GRID) + onEdge(Math.floor(k / GRID)));
   });
-  return Math.sqrt(sum * area);
+  return Math.sqrt(total * area);
 }
 
-// -- costs ----------------------------------------------------------------------------------
-
-function gradient({ x, y, u }, p, q, r) {
-  const [ex, ey, du] = [x[q] - x[p], y[q] - y[p], u[q] - u[p]];
-  const [fx, fy, dv] = [x[r] - x[p], y[r] - y[p], u[r] - u[p]];
-  const area = ex * fy - ey * fx;
-  return [(du * fy - dv * ey) / area, (dv * ex - du * fx) / area];
-}
-
-// Costs of an edge p-q with elements to the left (l) and right (r), as in costs.py.
-const EDGE_COSTS = {
-  jnd({ x, y }, p, q, g, h) {
-    const along = [x[q] - x[p], y[q] - y[p]], jump = [g[0] - h[0], g[1] - h[1]];
-    return Math.abs(along[1] * jump[0] - along[0] * jump[1]) / Math.hypot(...along);
-  },
-  abn(mesh, p, q, g, h) {
-    const cross = Math.hypot(h[1] - g[1], g[0] - h[0], g[0] * h[1] - g[1] * h[0]);
-    return Math.atan2(cross, g[0] * h[0] + g[1] * h[1] + 1);
-  },
-  dlp: (...arguments_) => Math.hypot(...misses(...arguments_)),
-  dfp(mesh, p, q, g, h, l, r) {
-    const [over, under] = misses(mesh, p, q, g, h, l, r);
-    return Math.hypot(over / Math.hypot(1, ...g), under / Math.hypot(1, ...h));
-  },
-};
-
-// How far the plane of each element misses the opposite node of the other.
-function misses({ x, y, u }, p, q, g, h, l, r) {
-  return [[g, r], [h, l]].map(([[a, b], n]) => u[p] + a * (x[n] - x[p]) + b * (y[n] - y[p]) - u[n]);
-}
-
-const ELEMENT_COSTS = {
-  "smallest-angle": (mesh, t) => Math.max(EQUILATERAL - Math.min(...anglesOf(mesh, t)), 0),
-  "largest-angle": (mesh, t) => Math.max(Math.max(...anglesOf(mesh, t)) - EQUILATERAL, 0),
-};
-
-// Of an inner edge by the elements that meet there; 0 on the boundary.
-function edgeCost(mesh, name, e) {
-  const [p, q] = [mesh.ends[2 * e], mesh.ends[2 * e + 1]];
-  const [s, t] = [mesh.sides[2 * e], mesh.sides[2 * e + 1]];
-  return t < 0 ? 0 : costBetween(mesh, name, p, q, opposite(mesh, s, p, q), opposite(mesh, t, p, q));
-}
-
-function costBetween(mesh, name, p, q, l, r) {
-  return EDGE_COSTS[name](mesh, p, q, gradient(mesh, p, q, l), gradient(mesh, q, p, r), l, r);
-}
-
-// Cost vectors as the norms measure them; of the lexicographic order the first entry.
-const largest = (costs) => Math.max(...costs);
-const NORMS = { 1: sum, 2: (costs) => sum(costs.map((cost) => cost * cost)), max: largest,
-                lexicographic: largest };
-
-// Of the five edges, or the two elements, of a quadrilateral.
-function localCost(mesh, { cost, on, norm }, corners) {
-  const inside = (...nodes) => nodes.every((n) => corners.includes(n)), costs = [];
-  if (on === "edge") {
-    for (let e = 0; e < mesh.edges; e++) {
-      if (inside(mesh.ends[2 * e], mesh.ends[2 * e + 1])) costs.push(edgeCost(mesh, cost, e));
-    }
-  } else {
-    for (let t = 0; t < mesh.size; t++) {
-      if (inside(...cornersOf(mesh, t))) costs.push(ELEMENT_COSTS[cost](mesh, t));
-    }
-  }
-  return NORMS[norm](costs);
-}
-
-// The local cost with the old edge of what was tried, and with the new one.
-function triedCosts(mesh, scene) {
-  const { a, b, c, d, accepted } = mesh.tried, elements = mesh.elements.slice();
-  swap(elements, accepted ? { a: c, b: d, c: a, d: b } : mesh.tried, mesh);
-  const pair = [mesh, { ...mesh, elements, ...edgesOf(elements) }]
-    .map((m) => localCost(m, scene, [a, b, c, d]));
-  return accepted ? pair.reverse() : pair;
-}
+/** @type {(error: Float64Array) => number} */
+export const largestOf = (error) => error.reduce((most, e) => Math.max(most, e), 0);
 
 // -- shapes ---------------------------------------------------------------------------------
 
-function anglesOf({ x, y, elements }, t) {
-  return [0, 1, 2].map((k) => {
-    const [p, q, r] = [0, 1, 2].map((m) => elements[3 * t + (k + m) % 3]);
-    const [e, f] = [[x[q] - x[p], y[q] - y[p]], [x[r] - x[p], y[r] - y[p]]];
-    return Math.atan2(Math.abs(e[0] * f[1] - e[1] * f[0]), e[0] * f[0] + e[1] * f[1]);
-  });
-}
-
+/** 1 for an equilateral element, 0 for a flat one.
+ * @type {(mesh: Mesh, t: number) => number} */
 function aspectRatio({ x, y, elements }, t) {
   const [p, q, r] = elements.subarray(3 * t, 3 * t + 3);
   const area = (x[q] - x[p]) * (y[r] - y[p]) - (x[r] - x[p]) * (y[q] - y[p]);
@@ -187,28 +82,38 @@ function aspectRatio({ x, y, elements }, t) {
   return 2 * Math.sqrt(3) * area / squares;
 }
 
-// Label, decimals and measure of an element, whose angles are known.
+/** Label, decimals, and the measure of element t, whose angles are known.
+ * @type {Shape[]} */
 const SHAPES = [
   ["Maximum angle (°)", 1, (angles) => Math.max(...angles) / DEGREE],
-  ["Skewness", 3, (angles) => angles.reduce((s, a) => s + Math.abs(a - EQUILATERAL), 0) / 3],
+  ["Skewness", 3, (angles) => sum(angles.map((a) => Math.abs(a - EQUILATERAL))) / 3],
   ["Aspect ratio", 3, (angles, mesh, t) => aspectRatio(mesh, t)],
 ];
 
-// The numbers of the table: rows of label, value, and text as in scene.py.
-function numbersOf(mesh, error, box) {
+/** The numbers of the quality table.
+ * @type {(mesh: Mesh, error: Float64Array, box: Box) => Numbered[]} */
+export function numbersOf(mesh, error, box) {
   const counts = { Nodes: mesh.nodes.length, Edges: mesh.edges, Elements: mesh.size, Swaps: mesh.swaps };
-  const errors = { "L2 error": l2Of(error, box), "Largest error": error.reduce((m, e) => Math.max(m, e), 0) };
-  const angles = Array.from({ length: mesh.size }, (_, t) => anglesOf(mesh, t));
-  const shapes = SHAPES.flatMap(([label, digits, measure]) => {
-    const values = angles.map((three, t) => measure(three, mesh, t));
-    const mean = values.reduce((s, v) => s + v, 0) / mesh.size;
-    return [["mean", mean], ["max", Math.max(...values)]]
-      .map(([kind, value]) => [`${label}, ${kind}`, value, value.toFixed(digits)]);
-  });
-  return [...Object.entries(counts).map(([label, n]) => [label, n, String(n)]),
-          ...Object.entries(errors).map(([label, e]) => [label, e, significant(e)]), ...shapes];
+  const errors = { "L2 error": l2Of(error, box), "Largest error": largestOf(error) };
+  return [...Object.entries(counts).map(([label, n]) => /** @type {Numbered} */ ([label, n, String(n)])),
+          ...Object.entries(errors).map(([label, e]) => /** @type {Numbered} */ ([label, e, significant(e)])),
+          ...shapesOf(mesh)];
 }
 
+/** Mean and maximum of each measure of shape.
+ * @type {(mesh: Mesh) => Numbered[]} */
+function shapesOf(mesh) {
+  const angles = Array.from({ length: mesh.size }, (_, t) => anglesOf(mesh, t));
+  return SHAPES.flatMap(([label, digits, measure]) => {
+    const values = angles.map((three, t) => measure(three, mesh, t));
+    const found = { mean: sum(values) / mesh.size, max: Math.max(...values) };
+    return Object.entries(found).map(([kind, value]) =>
+      /** @type {Numbered} */ ([`${label}, ${kind}`, value, value.toFixed(digits)]));
+  });
+}
+
+/** An error with four decimals, or three digits where four decimals would say less, as in scene.py.
+ * @type {(error: number) => string} */
 function significant(error) {
   if (error >= 0.01 || error === 0) return error.toFixed(4);
   return error.toExponential(2).replace(/([+-])(\d)$/, "$10$2");

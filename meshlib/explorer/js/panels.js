@@ -1,25 +1,48 @@
 // The parts of the view: panels with colour bars, the table, and what is said of a frame.
 
-const STEP = 5 * DEGREE;                             // of turning by an arrow key
-const HINT = "Point at an edge or an element, or use the arrow keys, to see its cost.";
-const EYE = { azimuth: -60 * DEGREE, elevation: 32 * DEGREE };
-const PANELS = [
+import { CIVIDIS, VIRIDIS } from "./colours.js";
+import { triedCosts } from "./costs.js";
+import { element } from "./dom.js";
+import { drawError, drawLines, drawMesh } from "./drawing.js";
+import { DEGREE } from "./mesh.js";
+import { drawSurface } from "./surface.js";
+
+/** @import { Eye, Layout, Mesh, Pair, Panel, PanelParts, Scene, Try } from "./types" */
+
+const STEP = 5 * DEGREE;                             // turn of the surface by an arrow key
+export const HINT = "Point at an edge or an element, or use the arrow keys, to see its cost.";
+/** @type {Eye} */
+export const EYE = { azimuth: -60 * DEGREE, elevation: 32 * DEGREE };
+
+/** @type {Panel[]} */
+export const PANELS = [
   { name: "mesh", caption: "mesh over the interpolant", draw: drawMesh, table: VIRIDIS,
-    ends: (s) => s.limits },
+    ends: (shown) => shown.limits },
   { name: "lines", caption: "lines of constant value", draw: drawLines, table: VIRIDIS,
-    ends: (s) => s.limits },
+    ends: (shown) => shown.limits },
   { name: "error", caption: "error |u − u\u2095|", draw: drawError, table: CIVIDIS,
-    ends: (s) => [0, s.worst] },
+    ends: (shown) => [0, shown.worst] },
   { name: "surface", caption: "surface: drag or use arrow keys", draw: drawSurface, table: VIRIDIS,
-    ends: (s) => s.limits, turns: true },
+    ends: (shown) => shown.limits, turns: true },
 ];
 
-function element(tag, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
+// -- panels and table --------------------------------------------------------------------------
+
+/** All parts of a view, empty.
+ * @type {() => Layout} */
+export function layout() {
+  const panels = PANELS.map(panel), table = element("table");
+  const title = element("p", { className: "title" }), note = element("p", { className: "note" });
+  const readout = element("p", { className: "readout" });
+  for (const said of [title, readout]) said.setAttribute("role", "status");  // read aloud
+  const grid = element("div", { className: "panels" }, ...panels.map((p) => p.figure), table);
+  const tools = element("div", { className: "tools" });
+  const root = element("div", { className: "mesh-explorer" }, title, note, grid, readout, tools);
+  return { root, title, note, panels, table, readout, tools };
 }
 
+/** A canvas with its colour bar and caption.
+ * @type {(panel: Panel) => PanelParts} */
 function panel({ name, caption, table, turns }) {
   const canvas = element("canvas", { className: turns ? "turns" : "", tabIndex: 0 });
   canvas.setAttribute("role", "img");
@@ -32,8 +55,9 @@ function panel({ name, caption, table, turns }) {
   return { figure, canvas, ends };
 }
 
-// Rows of label and number at the start and in the frame shown, whose heading is given.
-function fillTable(table, rows, heading) {
+/** Rows of a label and its number at the start and in the frame shown, whose heading is given.
+ * @type {(table: HTMLTableElement, rows: [string, string, string][], heading: string) => void} */
+export function fillTable(table, rows, heading) {
   const heads = ["measure", "start", heading].map((textContent) =>
     element("th", { textContent, scope: "col" }));
   const body = rows.map(([label, ...texts]) =>
@@ -43,13 +67,38 @@ function fillTable(table, rows, heading) {
     element("thead", {}, element("tr", {}, ...heads)), element("tbody", {}, ...body));
 }
 
-function makeTurnable(canvas, eye, redraw) {
-  const turn = (right, up) => {
+/** A number at one end of a colour bar, with three digits of the larger of both; the smaller may be
+ * 1e-9 and mean 0.
+ * @type {(value: number, ends: Pair) => string} */
+export function short(value, [low, high]) {
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  if (size < 1e-3) return value ? value.toExponential(1) : "0";
+  const digits = 2 - Math.floor(Math.log10(size));
+  return String(Number(value.toFixed(Math.max(digits, 0))) + 0);
+}
+
+/** What was tried in this frame, with the local cost before and after.
+ * @type {(mesh: Mesh, tried: Try, scene: Scene, frame: number) => string} */
+export function triedText(mesh, tried, scene, frame) {
+  const [old, other] = tried.accepted ? ["dashed", "solid"] : ["solid", "dashed"];
+  const [before, after] = triedCosts(mesh, tried, scene).map((cost) => cost.toPrecision(4));
+  const where = scene.on === "edge" ? "five edges" : "two elements";
+  return `Try ${frame}: the ${old} edge against the ${other} one. Cost of the ${where}: ${before} before, `
+    + `${after} after. ${tried.accepted ? "Swapped." : "Kept."}`;
+}
+
+// -- turning, and the theme --------------------------------------------------------------------
+
+/** Has pointer and arrow keys turn the eye.
+ * @type {(canvas: HTMLCanvasElement, eye: Eye, redraw: () => void) => void} */
+export function makeTurnable(canvas, eye, redraw) {
+  const turn = (/** @type {number} */ right, /** @type {number} */ up) => {
     eye.azimuth -= right;
     eye.elevation = Math.min(Math.max(eye.elevation + up, 0), 90 * DEGREE);
     redraw();
   };
-  let last = null;                                   // of a finger no browser tells how far it moved
+  /** @type {Pair | null} */
+  let last = null;                                   // no browser tells how far a finger has moved
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
     last = [event.clientX, event.clientY];
@@ -59,6 +108,7 @@ function makeTurnable(canvas, eye, redraw) {
     turn((clientX - last[0]) * DEGREE, (clientY - last[1]) * DEGREE);
     last = [clientX, clientY];
   });
+  /** @type {Record<string, Pair>} */
   const keys = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] };
   canvas.addEventListener("keydown", (event) => {
     if (!(event.key in keys)) return;
@@ -67,41 +117,17 @@ function makeTurnable(canvas, eye, redraw) {
   });
 }
 
-function watchTheme(redraw) {
+/** Redraws when the page turns dark or light; returns a function that ends this.
+ * @type {(redraw: () => void) => () => void} */
+export function watchTheme(redraw) {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
   const attributeFilter = ["data-theme", "data-jp-theme-name"], observer = new MutationObserver(redraw);
   for (const root of [document.documentElement, document.body]) {
     observer.observe(root, { attributes: true, attributeFilter });
   }
   dark.addEventListener("change", redraw);
-  return () => (observer.disconnect(), dark.removeEventListener("change", redraw));
+  return () => {
+    observer.disconnect();
+    dark.removeEventListener("change", redraw);
+  };
 }
-
-// Three digits of the larger end; the smaller one may be 1e-9 and mean 0.
-function short(value, [low, high]) {
-  const size = Math.max(Math.abs(low), Math.abs(high));
-  if (size < 1e-3) return value ? value.toExponential(1) : "0";
-  const digits = 2 - Math.floor(Math.log10(size));
-  return String(Number(value.toFixed(Math.max(digits, 0))) + 0);
-}
-
-function layout() {
-  const panels = PANELS.map(panel), table = element("table");
-  const title = element("p", { className: "title" }), note = element("p", { className: "note" });
-  const readout = element("p", { className: "readout" });
-  for (const said of [title, readout]) said.setAttribute("role", "status");  // read aloud
-  const grid = element("div", { className: "panels" }, ...panels.map((p) => p.figure), table);
-  const tools = element("div", { className: "tools" });
-  const root = element("div", { className: "mesh-explorer" }, title, note, grid, readout, tools);
-  return { root, title, note, panels, table, readout, tools };
-}
-
-// What was tried in this frame, with the local cost before and after.
-function triedText(mesh, scene, frame) {
-  const { accepted } = mesh.tried, [old, other] = accepted ? ["dashed", "solid"] : ["solid", "dashed"];
-  const costs = triedCosts(mesh, scene).map((cost) => cost.toPrecision(4));
-  const where = scene.on === "edge" ? "five edges" : "two elements";
-  return `Try ${frame}: the ${old} edge against the ${other} one. Cost of the ${where}: ${costs[0]} before, `
-    + `${costs[1]} after. ${accepted ? "Swapped." : "Kept."}`;
-}
-

@@ -1,13 +1,32 @@
 // A frame as a file: SVG by the pens of pens.js, and PNG made from it.
 
-const SIDE = 360, GAP = 24, LINE = 22;               // of a panel, between panels, of text
-const DENSITY = 2;                                   // pixels of a PNG for each unit of the SVG
+import { element } from "./dom.js";
+import { flat, MARGIN } from "./drawing.js";
+import { PANELS } from "./panels.js";
+import { contextOf, SvgPen } from "./pens.js";
 
-const escaped = (text) => text.replace(/[&<>]/g, (c) => `&#${c.charCodeAt(0)};`);
+/** @import { Visible } from "./types" */
+
+const SIDE = 360;                                    // length of a panel
+const GAP = 24;                                      // between panels
+const LINE = 22;                                     // height of a line of text
+const TOLD = 6;                                      // numbers of the quality table that are told
+const DENSITY = 2;                                   // pixels of a PNG for each unit of the SVG
+const LATER = 1000;                                  // milliseconds until the browser has taken a file
+
+/** @type {Record<string, string>} */
+const ENTITIES = { "&": "&#38;", "<": "&#60;", ">": "&#62;" };
+
+/** @type {(text: string) => string} */
+const escaped = (text) => text.replace(/[&<>]/g, (c) => ENTITIES[c]);
+
+/** @type {(x: number, y: number, text: string, weight?: number) => string} */
 const textAt = (x, y, text, weight = 400) =>
   `<text x="${x}" y="${y}" font-weight="${weight}" fill="black">${escaped(text)}</text>`;
 
-function svgOf(shown, heading) {
+/** The four panels as SVG, below a heading and the first numbers.
+ * @type {(shown: Visible, heading: string) => string} */
+export function svgOf(shown, heading) {
   const cell = SIDE + GAP + LINE, width = 2 * SIDE + 3 * GAP, height = 4 * LINE + 2 * cell;
   const panels = PANELS.map(({ draw, caption }, k) => {
     const pen = new SvgPen(), place = flat(shown.box, SIDE);
@@ -16,26 +35,29 @@ function svgOf(shown, heading) {
     const below = textAt(MARGIN, SIDE + LINE, caption);
     return `<g transform="translate(${left} ${top})">${pen.parts.join("\n")}${below}</g>`;
   });
-  const told = shown.numbers.slice(0, 6).map(([label, , text]) => `${label} ${text}`).join("   ");
+  const told = shown.numbers.slice(0, TOLD).map(([label, , text]) => `${label} ${text}`).join("   ");
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" font-size="14"`
     + ` viewBox="0 0 ${width} ${height}" font-family="sans-serif">`
     + `<rect width="100%" height="100%" fill="white"/>`
     + textAt(GAP, 1.4 * LINE, heading, 600) + textAt(GAP, 2.6 * LINE, told) + `${panels.join("\n")}</svg>\n`;
 }
 
+/** @type {(blob: Blob, name: string) => void} */
 function download(blob, name) {
   const href = URL.createObjectURL(blob);
   element("a", { href, download: name }).click();
-  setTimeout(() => URL.revokeObjectURL(href), 1000); // once the browser has taken it
+  setTimeout(() => URL.revokeObjectURL(href), LATER);
 }
 
-const saveSvg = (svg, name) => download(new Blob([svg], { type: "image/svg+xml" }), `${name}.svg`);
+/** @type {(svg: string, name: string) => void} */
+export const saveSvg = (svg, name) => download(new Blob([svg], { type: "image/svg+xml" }), `${name}.svg`);
 
-async function savePng(svg, name) {
+/** @type {(svg: string, name: string) => Promise<void>} */
+export async function savePng(svg, name) {
   const image = new Image();
   image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
   await image.decode();
   const canvas = element("canvas", { width: DENSITY * image.width, height: DENSITY * image.height });
-  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
-  canvas.toBlob((blob) => download(blob, `${name}.png`));
+  contextOf(canvas).drawImage(image, 0, 0, canvas.width, canvas.height);
+  canvas.toBlob((blob) => blob && download(blob, `${name}.png`));
 }

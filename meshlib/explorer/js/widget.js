@@ -1,9 +1,19 @@
 // Where a kernel is: an anywidget view of the scene that the kernel sends.
 
-function render({ model, el }) {
+import { decode, sceneAt } from "./atlas.js";
+import { makeView } from "./view.js";
+
+/** @import { Model, Scene } from "./types" */
+
+/** Shows the scene of a model in an element of the notebook; returns a function that ends this.
+ * @type {(place: { model: Model, el: HTMLElement }) => () => void} */
+export function render({ model, el }) {
   const view = makeView();
+  /** @type {Scene | undefined} */
   let scene;
-  const show = () => scene && view.show(scene, Math.min(model.get("frame"), scene.frames - 1));
+  const show = () => {
+    if (scene) view.show(scene, Math.min(model.get("frame"), scene.frames - 1));
+  };
   const load = () => {
     const bytes = model.get("atlas");                // a DataView; arrays want aligned memory
     if (!bytes.byteLength) return;
@@ -14,7 +24,9 @@ function render({ model, el }) {
   model.on("change:atlas", load);
   model.on("change:frame", show);
   load();
-  return () => (view.stop(), model.off("change:atlas", load), model.off("change:frame", show));
+  return () => {
+    view.stop();
+    model.off("change:atlas", load);
+    model.off("change:frame", show);
+  };
 }
-
-export default { render };
