@@ -1,4 +1,5 @@
 """Checks of what a user hands in, made before anything is computed from it."""
+
 import difflib
 from numbers import Real
 
@@ -21,8 +22,9 @@ def node_array(nodes):
     if not np.isfinite(nodes).all():
         bad = np.flatnonzero(~np.isfinite(nodes).all(axis=1))
         x, y = nodes[bad[0]]
-        raise MeshError("finite", f"node {bad[0]} has the coordinates ({x}, {y}); "
-                        "remove it or give finite numbers", bad)
+        raise MeshError(
+            "finite", f"node {bad[0]} has the coordinates ({x}, {y}); remove it or give finite numbers", bad
+        )
     return nodes
 
 
@@ -33,8 +35,11 @@ def element_array(elements):
         raise MeshError("shape", "there are no elements; give at least one")
     if elements.max() > LARGEST_NUMBER:
         t, k = np.argwhere(elements > LARGEST_NUMBER)[0]
-        raise MeshError("index range", f"element {t} names node {elements[t, k]}; "
-                        f"the largest number is {LARGEST_NUMBER}", (t,))
+        raise MeshError(
+            "index range",
+            f"element {t} names node {elements[t, k]}; the largest number is {LARGEST_NUMBER}",
+            (t,),
+        )
     return elements.astype(np.int32)
 
 
@@ -58,8 +63,11 @@ def each_edge_once(numbers, edges):
     again = np.flatnonzero(np.diff(numbers[order]) == 0)
     if again.size:
         (i, j), first, second = edges[numbers[order[again[0]]]], order[again[0]], order[again[0] + 1]
-        raise MeshError("edge", f"nodes {i} and {j} are given twice, in rows {first} and {second}; "
-                        "keep one of them", (i, j))
+        raise MeshError(
+            "edge",
+            f"nodes {i} and {j} are given twice, in rows {first} and {second}; keep one of them",
+            (i, j),
+        )
     if missing.size:
         i, j = edges[missing[0]]
         raise MeshError("edge", f"nodes {i} and {j} are joined by an edge that is not given; add it", (i, j))
@@ -69,8 +77,9 @@ def marked(array, what):
     """Three columns, the third a marker, or a MeshError."""
     array = np.asarray(array)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise MeshError("shape", f"{what} have shape {array.shape}; give three columns, "
-                        "the third the boundary marker")
+        raise MeshError(
+            "shape", f"{what} have shape {array.shape}; give three columns, the third the boundary marker"
+        )
     return array
 
 
@@ -79,8 +88,12 @@ def markers(what, given, derived):
     wrong = np.flatnonzero((given != 0) != derived)
     if wrong.size:
         place = "on the boundary" if derived[wrong[0]] else "inside"
-        raise MeshError("marker", f"{what} {wrong[0]} is marked {given[wrong[0]]:g} but lies {place}; "
-                        "mark 1 on the boundary and 0 inside", wrong)
+        raise MeshError(
+            "marker",
+            f"{what} {wrong[0]} is marked {given[wrong[0]]:g} but lies {place}; "
+            "mark 1 on the boundary and 0 inside",
+            wrong,
+        )
 
 
 def distinct_nodes(nodes):
@@ -112,16 +125,19 @@ def nodal_values(mesh, values):
         values = values(*mesh.nodes.T)
     values = numeric(values, "values")
     if values.shape != (mesh.n_nodes,):
-        raise MeshError("shape", f"values have shape {values.shape}; give one value "
-                        f"for each of the {mesh.n_nodes} nodes")
+        raise MeshError(
+            "shape", f"values have shape {values.shape}; give one value for each of the {mesh.n_nodes} nodes"
+        )
     bad = np.flatnonzero(~np.isfinite(values))
     if bad.size:
-        raise MeshError("finite", f"the value at node {bad[0]} is {values[bad[0]]}; "
-                        "fill it in or remove the node", bad)
+        raise MeshError(
+            "finite", f"the value at node {bad[0]} is {values[bad[0]]}; fill it in or remove the node", bad
+        )
     size = np.abs(values).max()
     if size > LARGEST_VALUE or 0 < size < 1 / LARGEST_VALUE:
-        raise MeshError("range", f"the largest value is {size:g}, whose square is out of range; "
-                        "measure u in another unit")
+        raise MeshError(
+            "range", f"the largest value is {size:g}, whose square is out of range; measure u in another unit"
+        )
     return values
 
 
@@ -129,13 +145,17 @@ def function_values(function, x, y):
     """Values of a vectorised function, finite and of the shape of x and y, or a MeshError."""
     found = np.asarray(function(x, y))
     if found.shape != x.shape or found.dtype.kind not in "fiu":
-        raise MeshError("shape", f"the function returned shape {found.shape} and dtype {found.dtype} "
-                        f"for points of shape {x.shape}; return one real number for each")
+        raise MeshError(
+            "shape",
+            f"the function returned shape {found.shape} and dtype {found.dtype} "
+            f"for points of shape {x.shape}; return one real number for each",
+        )
     if not np.isfinite(found).all():
         k = np.flatnonzero(~np.isfinite(found).ravel())[0]
         at = f"({x.ravel()[k]}, {y.ravel()[k]})"
-        raise MeshError("finite", f"the function is {found.ravel()[k]} at {at}; "
-                        "it must be finite in the whole domain")
+        raise MeshError(
+            "finite", f"the function is {found.ravel()[k]} at {at}; it must be finite in the whole domain"
+        )
     return found
 
 
@@ -143,12 +163,19 @@ def cost_vector(costs, size, what):
     """What a criterion returned as (size,) floats of at least 0, or a MeshError."""
     costs = np.asarray(costs, dtype=float)
     if costs.shape != (size,):
-        raise MeshError("shape", f"the criterion returned costs of shape {costs.shape} "
-                        f"for {size} {what}s; return one number for each")
+        raise MeshError(
+            "shape",
+            f"the criterion returned costs of shape {costs.shape} "
+            f"for {size} {what}s; return one number for each",
+        )
     bad = np.flatnonzero(~(np.isfinite(costs) & (costs >= 0)))
     if bad.size:
-        raise MeshError("cost", f"the cost of {what} {bad[0]} is {costs[bad[0]]}; "
-                        "a criterion must return finite numbers of at least 0", bad)
+        raise MeshError(
+            "cost",
+            f"the cost of {what} {bad[0]} is {costs[bad[0]]}; "
+            "a criterion must return finite numbers of at least 0",
+            bad,
+        )
     return costs
 
 
@@ -203,8 +230,11 @@ def permutation(order, size, what="edge"):
         return np.arange(size)
     order = _regular(order, "order")
     if order.shape != (size,) or order.dtype.kind not in "iu":
-        raise MeshError("shape", f"order has shape {order.shape} and dtype {order.dtype}; "
-                        f"give the {size} {what} numbers, each once")
+        raise MeshError(
+            "shape",
+            f"order has shape {order.shape} and dtype {order.dtype}; "
+            f"give the {size} {what} numbers, each once",
+        )
     named = np.zeros(size, dtype=bool)
     named[order[(order >= 0) & (order < size)]] = True
     missing = np.flatnonzero(~named)

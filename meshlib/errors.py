@@ -41,11 +41,16 @@ class Interrupted(KeyboardInterrupt):
 
 def not_a_cost(a, b):
     """The error for a cost around the edge a-b that a criterion must not return."""
-    return MeshError("cost", f"a cost around edge ({a}, {b}) is negative or not finite; "
-                     "a criterion must return finite numbers of at least 0", (a, b))
+    return MeshError(
+        "cost",
+        f"a cost around edge ({a}, {b}) is negative or not finite; "
+        "a criterion must return finite numbers of at least 0",
+        (a, b),
+    )
 
 
 def missing_extra(package, extra):
     """The error for an optional dependency that is not installed."""
     from . import DISTRIBUTION
+
     return ImportError(f"{package} is needed here: pip install '{DISTRIBUTION}[{extra}]'")

@@ -1,9 +1,10 @@
 """Meshes and nodal values in and out of files, through meshio."""
+
 import numpy as np
 
 from . import checks
 from .errors import MeshError, missing_extra
-from .mesh import Mesh
+from .mesh.mesh import Mesh
 
 
 def write(path, mesh, values=None):

@@ -1,21 +1,25 @@
 """The combined strategy, patch by patch (Algorithm 7.5.1): it ends under two conditions, and cycles without."""
+
 from unittest import mock
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Interpolant, Mesh, MeshError, combined, criteria, delaunay, problems, refined, swapped
-from meshlib import procedure as procedures
-from meshlib.combined import LEAST_GAIN, _objective, _Run
-from meshlib.kernels import COMPILED, INTERPRETED
-from meshlib.quality import angles
 from strategies import meshes
 
+from meshlib import Interpolant, Mesh, MeshError, combined, criteria, delaunay, problems, refined, swapped
+from meshlib.combination.combined import LEAST_GAIN, _objective, _Run
+from meshlib.kernels import COMPILED, INTERPRETED
+from meshlib.mesh.quality import angles
+from meshlib.swapping import procedure as procedures
+
 PLACES = {"edge": "jnd", "element": None, "node": "gradient-spread"}  # None: the L2 error
-FUNCTIONS = {"cliff": lambda x, y: np.tanh(x - y), "bowl": lambda x, y: x * x + x * y + y * y,
-             "kink": lambda x, y: abs(x - 0.4 * y - 1)}
+FUNCTIONS = {
+    "cliff": lambda x, y: np.tanh(x - y),
+    "bowl": lambda x, y: x * x + x * y + y * y,
+    "kink": lambda x, y: abs(x - 0.4 * y - 1),
+}
 
 
 def ridge(x, y):
@@ -38,7 +42,7 @@ def small():
 def before_and_after(result):
     """The indicator of the mesh before and after each step."""
     after = result.steps["indicator"]
-    return np.append(result.indicator, after[:-1])[:len(after)], after
+    return np.append(result.indicator, after[:-1])[: len(after)], after
 
 
 # -- as written it cycles -------------------------------------------------------------------------
@@ -94,8 +98,13 @@ def test_with_the_rim_the_same_mesh_is_left_for_good(two_inside):
 
 
 @settings(max_examples=25)
-@given(meshes(most=9, scales=(1.0,)), st.sampled_from(sorted(PLACES)), st.sampled_from((1, 2)),
-       st.sampled_from(sorted(FUNCTIONS)), st.sampled_from((("swap", "move"), "swap", "move")))
+@given(
+    meshes(most=9, scales=(1.0,)),
+    st.sampled_from(sorted(PLACES)),
+    st.sampled_from((1, 2)),
+    st.sampled_from(sorted(FUNCTIONS)),
+    st.sampled_from((("swap", "move"), "swap", "move")),
+)
 def test_every_step_is_valid_and_lowers_the_indicator_by_the_gain_of_its_patch(mesh, place, norm, name, ways):
     u, take = FUNCTIONS[name], _Run._take
 
@@ -103,6 +112,7 @@ def test_every_step_is_valid_and_lowers_the_indicator_by_the_gain_of_its_patch(m
         take(run, patch)
         assert Mesh(run.nodes, run.elements).validate().domain_area == pytest.approx(mesh.domain_area)
         assert np.allclose(run.values, u(*run.nodes.T))
+
     with mock.patch.object(_Run, "_take", taken):
         result = combined(mesh, u, PLACES[place], norm, ways, sweeps=3)
     before, after = before_and_after(result)
@@ -115,8 +125,11 @@ def test_every_step_is_valid_and_lowers_the_indicator_by_the_gain_of_its_patch(m
 
 
 @settings(max_examples=25)
-@given(meshes(most=9, scales=(1.0,)), st.sampled_from(("jnd", "abn", "gradient-spread")),
-       st.sampled_from((0.3, 0.03, 0.003)))
+@given(
+    meshes(most=9, scales=(1.0,)),
+    st.sampled_from(("jnd", "abn", "gradient-spread")),
+    st.sampled_from((0.3, 0.03, 0.003)),
+)
 def test_the_bound_on_steps_and_sweeps(mesh, criterion, least_gain):
     """n steps gain more than n least_gain J0, and J is never negative; each sweep but the last has a step."""
     result = combined(mesh, FUNCTIONS["kink"], criterion, least_gain=least_gain)
@@ -174,8 +187,11 @@ def test_a_mesh_that_is_best_stays():
 
 def test_both_ways_beat_either_on_the_33_nodes():
     mesh, u = problems.mesh("33"), problems.SR2
-    errors = {ways: Interpolant(r.mesh, r.values).l2_error(u, rule="exact") for ways in ("swap", "move", None)
-              for r in [combined(mesh, u, ways=ways or ("swap", "move"))]}
+    errors = {
+        ways: Interpolant(r.mesh, r.values).l2_error(u, rule="exact")
+        for ways in ("swap", "move", None)
+        for r in [combined(mesh, u, ways=ways or ("swap", "move"))]
+    }
     assert errors["swap"] > 2 * errors["move"] > 10 * errors[None]
 
 
@@ -205,6 +221,7 @@ def test_compiled_and_interpreted_kernels_agree(criterion, small, monkeypatch):
     def run(kernels):
         monkeypatch.setattr(procedures, "for_work", lambda steps: kernels)
         return combined(small, problems.SR2, criterion, sweeps=2)
+
     first, second = map(run, (COMPILED, INTERPRETED))
     assert first.mesh.equals(second.mesh)
     assert first.steps.tolist() == second.steps.tolist()
@@ -223,18 +240,31 @@ def test_the_largest_number_of_sweeps(small):
     assert (result.sweeps, result.period) == (1, -1)
 
 
-@pytest.mark.parametrize("arguments, message", [
-    (dict(function=np.zeros(33)), "type: u is a ndarray; give a function u(x, y), "
-                                  "since nodes move to where there is no value"),
-    (dict(norm="max"), "unknown: norm 'max' is not known (known: 1, 2)"),
-    (dict(ways="swop"), "unknown: way 'swop' is not known; did you mean 'swap'? (known: 'swap', 'move')"),
-    (dict(ways=()), "unknown: no way to change a patch is given; name 'swap', 'move' or both"),
-    (dict(least_gain=0), "range: least_gain is 0; give a share above 0 and below 1, "
-                         "since ever smaller gains need never end"),
-    (dict(sweeps=0), "range: sweeps is 0; give a whole number from 1"),
-    (dict(min_angle=60), "range: min_angle is 60; give degrees from 0 to below 60"),
-    (dict(criterion="jmd"), "unknown: criterion 'jmd' is not known; did you mean 'jnd'? (known: "
-                            + ", ".join(map(repr, criteria.names())) + ")")])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (
+            dict(function=np.zeros(33)),
+            "type: u is a ndarray; give a function u(x, y), since nodes move to where there is no value",
+        ),
+        (dict(norm="max"), "unknown: norm 'max' is not known (known: 1, 2)"),
+        (dict(ways="swop"), "unknown: way 'swop' is not known; did you mean 'swap'? (known: 'swap', 'move')"),
+        (dict(ways=()), "unknown: no way to change a patch is given; name 'swap', 'move' or both"),
+        (
+            dict(least_gain=0),
+            "range: least_gain is 0; give a share above 0 and below 1, "
+            "since ever smaller gains need never end",
+        ),
+        (dict(sweeps=0), "range: sweeps is 0; give a whole number from 1"),
+        (dict(min_angle=60), "range: min_angle is 60; give degrees from 0 to below 60"),
+        (
+            dict(criterion="jmd"),
+            "unknown: criterion 'jmd' is not known; did you mean 'jnd'? (known: "
+            + ", ".join(map(repr, criteria.names()))
+            + ")",
+        ),
+    ],
+)
 def test_messages(arguments, message):
     with pytest.raises(MeshError) as error:
         combined(problems.mesh("33"), **{"function": problems.SR1, **arguments})

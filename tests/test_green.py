@@ -1,14 +1,19 @@
 """Green pairs are remembered as long as they are left alone (section 3.2.4)."""
+
 import pytest
 
 from meshlib import problems, refined, swapped
 
 
-@pytest.mark.parametrize("again", [
-    lambda mesh, u: swapped(mesh, u, "jnd", min_angle=25),
-    lambda mesh, u: swapped(mesh, u, "jnd", norm="lexicographic", min_angle=25),
-    lambda mesh, u: refined(mesh, u, "abn", 0.05, split="centroid"),
-    lambda mesh, u: refined(mesh, u, "abn", 0.05, split="longest-edge")])
+@pytest.mark.parametrize(
+    "again",
+    [
+        lambda mesh, u: swapped(mesh, u, "jnd", min_angle=25),
+        lambda mesh, u: swapped(mesh, u, "jnd", norm="lexicographic", min_angle=25),
+        lambda mesh, u: refined(mesh, u, "abn", 0.05, split="centroid"),
+        lambda mesh, u: refined(mesh, u, "abn", 0.05, split="longest-edge"),
+    ],
+)
 def test_green_pairs_that_are_left_alone_are_remembered(again):
     u = problems.SR1
     first = refined(problems.mesh("33"), u).mesh

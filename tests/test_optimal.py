@@ -1,18 +1,21 @@
 """The best of all meshes: listed, proved, and found by many edge orders."""
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, swapped
-from meshlib.enumeration import enumerated
-from meshlib.optima import local_optima, order_of
-from meshlib.optimal import optimal
 from strategies import problems_of
 from support import all_meshes, as_set, lattice, polygon, shuffled
 
-CONCAVE = Mesh([[0, 0], [4, 0], [4, 4], [2, 2], [0, 4], [1, 1], [3, 1]],
-               [[0, 1, 5], [1, 6, 5], [1, 2, 6], [2, 3, 6], [3, 5, 6], [3, 4, 5], [4, 0, 5]]).validate()
+from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, swapped
+from meshlib.optima.enumeration import enumerated
+from meshlib.optima.many_orders import local_optima, order_of
+from meshlib.optima.proved import optimal
+
+CONCAVE = Mesh(
+    [[0, 0], [4, 0], [4, 4], [2, 2], [0, 4], [1, 1], [3, 1]],
+    [[0, 1, 5], [1, 6, 5], [1, 2, 6], [2, 3, 6], [3, 5, 6], [3, 4, 5], [4, 0, 5]],
+).validate()
 
 
 def meshes_of(start):
@@ -74,8 +77,9 @@ def test_the_domain_is_kept(start, request, rng):
     edges = {tuple(e) for e in start.edges[start.boundary].tolist()}
     assert {tuple(e) for e in best.mesh.edges[best.mesh.boundary].tolist()} == edges
     if start is CONCAVE:
-        assert best.cost == pytest.approx(min(np.linalg.norm(criteria.costs(m, values, "jnd"), 1)
-                                              for m in meshes_of(start)))
+        assert best.cost == pytest.approx(
+            min(np.linalg.norm(criteria.costs(m, values, "jnd"), 1) for m in meshes_of(start))
+        )
 
 
 def test_the_least_l2_error_of_the_paraboloid_is_that_of_delaunay(rng):
@@ -87,8 +91,10 @@ def test_the_least_l2_error_of_the_paraboloid_is_that_of_delaunay(rng):
     assert best.cost == pytest.approx(Interpolant(best.mesh, u).l2_error(u, rule="exact"), rel=1e-12)
 
 
-@pytest.mark.parametrize("function, norm, cost", [("SR1", 1, 9.436366858276), ("SR1", 2, 2.371595592102),
-                                                  ("SR2", 1, 16.767967094016)])
+@pytest.mark.parametrize(
+    "function, norm, cost",
+    [("SR1", 1, 9.436366858276), ("SR1", 2, 2.371595592102), ("SR2", 1, 16.767967094016)],
+)
 def test_proved_optima_on_33_nodes(function, norm, cost):
     found = optimal(problems.mesh("33"), problems.functions[function], "abn", norm)
     assert found.cost == pytest.approx(cost, rel=1e-11)
@@ -97,10 +103,16 @@ def test_proved_optima_on_33_nodes(function, norm, cost):
     assert (many.costs >= found.bound * (1 - 1e-12)).all()
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ({"criterion": "gradient-spread"},
-     "unknown: criterion 'gradient-spread' is on nodes; give one on edges or elements"),
-    ({"norm": "max"}, "unknown: norm 'max' is not known (known: 1, 2)")])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (
+            {"criterion": "gradient-spread"},
+            "unknown: criterion 'gradient-spread' is on nodes; give one on edges or elements",
+        ),
+        ({"norm": "max"}, "unknown: norm 'max' is not known (known: 1, 2)"),
+    ],
+)
 def test_what_is_no_sum_is_refused(square, arguments, message):
     with pytest.raises(MeshError) as error:
         optimal(square, [0, 0, 1, 0], **arguments)
@@ -112,8 +124,9 @@ def test_costs_that_are_not_finite_are_named(square, on, what):
     criterion = criteria.Criterion("nan", on, lambda *points: np.full(len(points[0]), np.nan))
     with pytest.raises(MeshError) as error:
         optimal(square, [0, 0, 1, 0], criterion)
-    assert str(error.value) == (f"cost: the cost of {what} 0 is nan; "
-                                "a criterion must return finite numbers of at least 0")
+    assert str(error.value) == (
+        f"cost: the cost of {what} 0 is nan; a criterion must return finite numbers of at least 0"
+    )
 
 
 def test_the_solver_stops_in_time():
@@ -166,17 +179,22 @@ def test_even_a_few_orders_are_shared_out(square, orders, most, parts, monkeypat
         sizes.extend(len(numbers) for *_, numbers in parts)
         assert total == len(parts)
         return [function(*part) for part in parts]
-    monkeypatch.setattr("meshlib.optima.shared", shared)
-    monkeypatch.setattr("meshlib.optima.ORDERS_AT_ONCE", most)
+
+    monkeypatch.setattr("meshlib.optima.many_orders.shared", shared)
+    monkeypatch.setattr("meshlib.optima.many_orders.ORDERS_AT_ONCE", most)
     local_optima(square, [0, 0, 1, 0], orders=orders)
     assert (len(sizes), sum(sizes)) == (parts, orders)
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ({"orders": 0}, "range: orders is 0; give a whole number from 1"),
-    ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
-    ({"workers": 0}, "range: workers is 0; give a whole number from 1, or -1 for all cores"),
-    ({"workers": -2}, "range: workers is -2; give a whole number from 1, or -1 for all cores")])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        ({"orders": 0}, "range: orders is 0; give a whole number from 1"),
+        ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
+        ({"workers": 0}, "range: workers is 0; give a whole number from 1, or -1 for all cores"),
+        ({"workers": -2}, "range: workers is -2; give a whole number from 1, or -1 for all cores"),
+    ],
+)
 def test_arguments_are_checked(square, arguments, message):
     with pytest.raises(MeshError) as error:
         local_optima(square, [0, 0, 1, 0], **arguments)

@@ -1,17 +1,18 @@
 """The schedule of a queue: certified local optima, the same by both procedures."""
+
 import dataclasses
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strategies import meshes, problems_of
+from support import as_set, is_delaunay, shuffled
 
 from meshlib import MeshError, criteria, delaunay, problems, swapped
 from meshlib.kernels import for_work
-from meshlib.renumbering import along_curve
-from meshlib.topology import MANY, edge_table, half_edges
-from strategies import meshes, problems_of
-from support import as_set, is_delaunay, shuffled
+from meshlib.mesh.topology import MANY, edge_table, half_edges
+from meshlib.swapping.along_curve import along_curve
 
 NAMES = ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle")
 
@@ -22,13 +23,20 @@ def reference(name):
 
 def tries(trace):
     """What was tried, each edge seen from its smaller node."""
-    return [(r["edge"], *min((r["a"], r["b"], r["c"], r["d"]), (r["b"], r["a"], r["d"], r["c"])),
-             r["accepted"]) for r in trace]
+    return [
+        (r["edge"], *min((r["a"], r["b"], r["c"], r["d"]), (r["b"], r["a"], r["d"], r["c"])), r["accepted"])
+        for r in trace
+    ]
 
 
 @settings(max_examples=120)
-@given(problems_of(scales=(1.0, 2.0 ** -20)), st.sampled_from(NAMES), st.sampled_from((1, 2, "max")),
-       st.sampled_from(({}, {"min_angle": 10}, {"min_area": 0.01})), st.one_of(st.none(), st.integers(0, 99)))
+@given(
+    problems_of(scales=(1.0, 2.0**-20)),
+    st.sampled_from(NAMES),
+    st.sampled_from((1, 2, "max")),
+    st.sampled_from(({}, {"min_angle": 10}, {"min_area": 0.01})),
+    st.one_of(st.none(), st.integers(0, 99)),
+)
 def test_both_procedures_agree_and_end_in_a_local_optimum(problem, name, norm, limits, seed):
     mesh, values = problem
     order = None if seed is None else np.random.default_rng(seed).permutation(mesh.n_edges)
@@ -56,8 +64,9 @@ def test_the_trace_of_a_queue_can_be_replayed():
     elements = as_set(mesh)
     for row in found.trace[found.trace["accepted"]]:
         a, b, c, d = (int(row[k]) for k in "abcd")
-        old, new = ({tuple(sorted(t)) for t in pair}
-                    for pair in (((a, b, c), (a, b, d)), ((c, d, a), (c, d, b))))
+        old, new = (
+            {tuple(sorted(t)) for t in pair} for pair in (((a, b, c), (a, b, d)), ((c, d, a), (c, d, b)))
+        )
         assert old <= elements
         elements = (elements - old) | new
     assert elements == as_set(found.mesh)
@@ -107,9 +116,9 @@ def test_edges_by_counting_are_those_by_sorting(hole, rng, monkeypatch):
     mesh = delaunay(rng.random((MANY // 2 + 200, 2)))
     elements = mesh.elements[mesh.nodes[mesh.elements].mean(axis=1)[:, 0] > 0.01] if hole else mesh.elements
     assert len(elements) >= MANY
-    monkeypatch.setattr("meshlib.topology._kernels_are_compiled", lambda: True)
+    monkeypatch.setattr("meshlib.mesh.topology._kernels_are_compiled", lambda: True)
     counted = edge_table(elements, mesh.n_nodes)
-    monkeypatch.setattr("meshlib.topology.MANY", np.inf)
+    monkeypatch.setattr("meshlib.mesh.topology.MANY", np.inf)
     for ours, theirs in zip(counted, edge_table(elements, mesh.n_nodes), strict=True):
         assert np.array_equal(ours, theirs) and ours.dtype == theirs.dtype
 

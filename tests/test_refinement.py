@@ -1,17 +1,18 @@
 """Marking and splitting: counts, ties, closure, and angles over repeated calls."""
+
 import dataclasses
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, refined
-from meshlib.marking import MARKS, TIES, averaged, marked
-from meshlib.quality import angles
-from meshlib.splitting import SPLITS
 from strategies import problems_of
 from support import as_set, lattice
+
+from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, refined
+from meshlib.mesh.quality import angles
+from meshlib.refinement.marking import MARKS, TIES, averaged, marked
+from meshlib.refinement.splitting import SPLITS
 
 
 def smallest_angle(mesh):
@@ -20,7 +21,8 @@ def smallest_angle(mesh):
 
 def at(mesh, x, y):
     """A criterion that marks the element at a point, and nothing else."""
-    from meshlib.location import located
+    from meshlib.interpolation.locate_by_buckets import located
+
     here = located(mesh, np.array([[x, y]]))[0]
     return criteria.Criterion("here", "element", lambda a, b, c: (np.arange(mesh.n_elements) == here) * 1.0)
 
@@ -88,10 +90,14 @@ def test_fraction_zero_changes_nothing(split, mark):
 
 @pytest.mark.parametrize("mark", MARKS)
 def test_fraction_one_marks_everything(mark, start):
-    assert np.array_equal(marked(start, problems.functions["SR1"], fraction=1, mark=mark), np.arange(start.n_elements))
+    assert np.array_equal(
+        marked(start, problems.functions["SR1"], fraction=1, mark=mark), np.arange(start.n_elements)
+    )
 
 
-@pytest.mark.parametrize("fraction, number", [(0.1, 5), (0.101, 6), (1e-6, 1), (0.14, 7), (0.28, 14), (0.98, 49)])
+@pytest.mark.parametrize(
+    "fraction, number", [(0.1, 5), (0.101, 6), (1e-6, 1), (0.14, 7), (0.28, 14), (0.98, 49)]
+)
 def test_the_share_is_rounded_up_but_not_by_rounding_errors(fraction, number):
     """0.14 * 50 is 7, though floats say 7.000000000000001."""
     assert 0.14 * 50 > 7 and 0.28 * 50 > 14
@@ -112,6 +118,7 @@ def test_ties(square):
 
     def of(**arguments):
         return marked(mesh, np.zeros(6), flat, **arguments).tolist()
+
     assert of(fraction=0.25) == [1]
     assert of(fraction=0.5) == [0, 1]
     assert of(fraction=0.5, ties="all") == [0, 1, 2, 3]
@@ -142,14 +149,18 @@ def test_by_edge_marks_both_elements_of_the_worst_edges(square):
 def test_by_node_marks_the_patch():
     mesh = delaunay(lattice(2, 2))
     cost = criteria.Criterion("node", "node", lambda u_h: np.arange(9) == 4)
-    assert marked(mesh, np.zeros(9), cost, 1e-6, "node").tolist() \
+    assert (
+        marked(mesh, np.zeros(9), cost, 1e-6, "node").tolist()
         == np.flatnonzero((mesh.elements == 4).any(axis=1)).tolist()
+    )
 
 
 def test_density_divides_by_the_area():
     nodes = [[0, 0], [1, 0], [1, 1], [0, 1], [9, 0]]
     mesh = Mesh(nodes, [[0, 1, 2], [0, 2, 3], [1, 4, 2]])
-    cost = criteria.Criterion("cost", "element", lambda a, b, c: np.array([1.0, 2.0, 3.0]))  # areas 1/2, 1/2, 4
+    cost = criteria.Criterion(
+        "cost", "element", lambda a, b, c: np.array([1.0, 2.0, 3.0])
+    )  # areas 1/2, 1/2, 4
     assert marked(mesh, np.zeros(5), cost, 0.3).tolist() == [2]
     assert marked(mesh, np.zeros(5), cost, 0.3, "density").tolist() == [1]
 
@@ -162,7 +173,9 @@ def test_averages_by_hand(square):
     assert averaged(square, np.array([1.0, 2]), "element", "edge") == pytest.approx([1, 1.5, 2, 1, 2])
     assert averaged(square, np.array([1.0, 2]), "element", "node") == pytest.approx([1.5, 1, 1.5, 2])
     assert averaged(square, np.array([1.0, 2, 3, 4]), "node", "element") == pytest.approx([2, 8 / 3])
-    assert averaged(square, np.array([1.0, 2, 3, 4]), "node", "edge") == pytest.approx([1.5, 2, 2.5, 2.5, 3.5])
+    assert averaged(square, np.array([1.0, 2, 3, 4]), "node", "edge") == pytest.approx(
+        [1.5, 2, 2.5, 2.5, 3.5]
+    )
 
 
 # -- values and parents --------------------------------------------------------------------------
@@ -252,9 +265,20 @@ def test_longest_edge_bisection_keeps_half_of_the_smallest_angle(name, fraction)
 
 
 @settings(max_examples=80)
-@given(problems_of(most=10, scales=(1.0, 0.1, 1e6)), st.lists(st.tuples(
-    st.sampled_from(criteria.names()), st.sampled_from((0.05, 0.3, 0.7, 1.0)), st.sampled_from(MARKS),
-    st.sampled_from(sorted(SPLITS)), st.sampled_from(TIES)), min_size=1, max_size=4))
+@given(
+    problems_of(most=10, scales=(1.0, 0.1, 1e6)),
+    st.lists(
+        st.tuples(
+            st.sampled_from(criteria.names()),
+            st.sampled_from((0.05, 0.3, 0.7, 1.0)),
+            st.sampled_from(MARKS),
+            st.sampled_from(sorted(SPLITS)),
+            st.sampled_from(TIES),
+        ),
+        min_size=1,
+        max_size=4,
+    ),
+)
 def test_any_sequence_of_refinements_is_valid(problem, steps):
     mesh, values = problem
     area = mesh.domain_area
@@ -277,7 +301,7 @@ def test_a_hole_stays_a_hole(frame, split, rng):
 @pytest.mark.parametrize("split", SPLITS)
 def test_an_element_too_thin_for_a_middle_is_refused(split):
     """Its nodes are one ulp apart, so that no number is left between them."""
-    x = 1.0 + 2.0 ** -52
+    x = 1.0 + 2.0**-52
     mesh = Mesh([[1, 1], [x, 1], [1, np.nextafter(1.0, 2)]], [[0, 1, 2]]).validate()
     with pytest.raises(MeshError) as error:
         refined(mesh, [0, 0, 1], fraction=1, split=split)
@@ -288,5 +312,6 @@ def test_costs_that_are_not_finite_are_named(square):
     bad = criteria.Criterion("bad", "element", lambda a, b, c: np.array([0.0, np.nan]))
     with pytest.raises(MeshError) as error:
         marked(square, np.zeros(4), bad, 0.5)
-    assert str(error.value) == ("cost: the cost of element 1 is nan; "
-                                "a criterion must return finite numbers of at least 0")
+    assert str(error.value) == (
+        "cost: the cost of element 1 is nan; a criterion must return finite numbers of at least 0"
+    )

@@ -1,14 +1,15 @@
 """Node movement: equilibria that are known, and moves that must be refused."""
+
 import dataclasses
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import DataSprings, Mesh, MeshError, delaunay, problems, refined, smoothed
 from strategies import meshes
 from support import lattice
+
+from meshlib import DataSprings, Mesh, MeshError, delaunay, problems, refined, smoothed
 
 
 def wheel(n, centre):
@@ -124,7 +125,7 @@ def test_nothing_inside_nothing_moves(square):
         result.sweeps = 2
 
 
-@pytest.mark.parametrize("shift, scale", [(0, 2.0 ** -30), (2.0 ** 20, 1)])
+@pytest.mark.parametrize("shift, scale", [(0, 2.0**-30), (2.0**20, 1)])
 def test_place_and_size_do_not_matter(shift, scale, rng):
     mesh = delaunay(rng.integers(0, 100, (30, 2)))
     moved = smoothed(Mesh(mesh.nodes * scale + shift, mesh.elements)).mesh.nodes
@@ -140,8 +141,8 @@ def test_derivatives_of_a_quadratic_along_edges(name):
     mesh = problems.mesh(name)
     start, end = mesh.nodes[mesh.edges].transpose(1, 2, 0)
     cosine = (end - start)[0] / np.hypot(*(end - start))
-    first, second, _ = DataSprings(lambda x, y: x ** 2).derivatives(mesh)
-    assert np.allclose(second, 2 * cosine ** 2) and np.allclose(first, np.abs(cosine * (start + end)[0]))
+    first, second, _ = DataSprings(lambda x, y: x**2).derivatives(mesh)
+    assert np.allclose(second, 2 * cosine**2) and np.allclose(first, np.abs(cosine * (start + end)[0]))
 
 
 def test_the_unit_of_the_data_does_not_matter():
@@ -156,7 +157,9 @@ def test_linear_data_give_laplacian_smoothing():
 
 
 @settings(max_examples=30)
-@given(meshes(most=14, scales=(1.0,)), st.booleans(), st.sampled_from((1, 3, 30)), st.sampled_from((0.4, 1, 3)))
+@given(
+    meshes(most=14, scales=(1.0,)), st.booleans(), st.sampled_from((1, 3, 30)), st.sampled_from((0.4, 1, 3))
+)
 def test_valid_whatever_the_data(mesh, sliding, sweeps, power):
     u = lambda x, y: np.tanh(5 * (x - 2)) + np.sin(7 * y)  # noqa: E731
     moved = smoothed(mesh, DataSprings(u, 1, 100, power), sweeps=sweeps, sliding=sliding).mesh.validate()
@@ -180,11 +183,14 @@ def test_a_step_that_would_tangle_is_halved():
     assert smoothed(boomerang(), halvings=1, sweeps=1).refused == 1
 
 
-@pytest.mark.parametrize("arguments, expected", [
-    ((3,), "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
-    ((len, -1), "range: first is -1; give a finite number of at least 0"),
-    ((len, 0, float("inf")), "range: second is inf; give a finite number of at least 0"),
-])
+@pytest.mark.parametrize(
+    "arguments, expected",
+    [
+        ((3,), "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
+        ((len, -1), "range: first is -1; give a finite number of at least 0"),
+        ((len, 0, float("inf")), "range: second is inf; give a finite number of at least 0"),
+    ],
+)
 def test_bad_data_springs(arguments, expected):
     with pytest.raises(MeshError) as error:
         DataSprings(*arguments)
@@ -200,4 +206,6 @@ def test_springs_of_the_wrong_shape_are_named_on_the_way():
 def test_data_that_are_not_finite_are_named():
     with pytest.raises(MeshError) as error:
         smoothed(problems.mesh("81"), DataSprings(lambda x, y: np.where(x == 0.5, np.nan, x)))
-    assert str(error.value) == "finite: the function is nan at (0.5, 0.0); it must be finite in the whole domain"
+    assert (
+        str(error.value) == "finite: the function is nan at (0.5, 0.0); it must be finite in the whole domain"
+    )

@@ -1,12 +1,13 @@
 """Springs that follow the data: closed forms along an edge, valid meshes, and what they are for."""
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from support import lattice
 
 from meshlib import DataSprings, Interpolant, MeshError, delaunay, problems, smoothed, swapped
-from meshlib.sides import CORNER, sides_of
-from support import lattice
+from meshlib.mesh.boundary_sides import CORNER, sides_of
 
 
 def test_derivatives_of_a_quadratic_function_are_exact():
@@ -64,13 +65,17 @@ def test_moving_before_swapping_beats_swapping_alone():
     def error(start):
         swap = swapped(start, u, "jnd", norm=2).mesh
         return Interpolant(swap, u).l2_error(u, "exact")
+
     assert error(moved) < error(mesh) / 3
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ((3,), "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
-    ((np.hypot, -1.0), "range: first is -1.0; give a finite number of at least 0"),
-])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        ((3,), "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
+        ((np.hypot, -1.0), "range: first is -1.0; give a finite number of at least 0"),
+    ],
+)
 def test_what_springs_cannot_be(arguments, message):
     with pytest.raises(MeshError) as caught:
         DataSprings(*arguments)

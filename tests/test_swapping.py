@@ -1,16 +1,17 @@
 """The local optimisation procedure: termination, limits, and its classical theorems."""
+
 import dataclasses
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Mesh, criteria, delaunay, problems, swapped
-from meshlib.norms import NORMS, measure
-from meshlib.quality import angles
 from strategies import problems_of
 from support import as_set, is_delaunay, lattice, shuffled
+
+from meshlib import Mesh, criteria, delaunay, problems, swapped
+from meshlib.criteria.norms import NORMS, measure
+from meshlib.mesh.quality import angles
 
 COSTS = st.sampled_from(criteria.names())
 TRACED = ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle")
@@ -24,7 +25,9 @@ def test_every_swap_lowers_its_local_cost_and_the_sum_falls(name, norm):
     trace = result.trace
     accepted = trace[trace["accepted"]]
     assert len(accepted) == result.swaps > 0 and len(trace) == result.tried
-    assert trace["sweep"].max() == result.sweeps and not trace["accepted"][trace["sweep"] == result.sweeps].any()
+    assert (
+        trace["sweep"].max() == result.sweeps and not trace["accepted"][trace["sweep"] == result.sweeps].any()
+    )
     if norm != "lexicographic":
         assert (accepted["new"] < accepted["old"]).all()
     assert result.cost_after <= result.cost_before
@@ -51,7 +54,9 @@ def test_replaying_the_trace_lowers_the_global_cost_at_every_swap(name, norm):
     last, elements = measure(criteria.costs(mesh, u, name), norm), as_set(mesh)
     for row in trace[trace["accepted"]]:
         a, b, c, d = (int(row[k]) for k in "abcd")
-        old, new = ({tuple(sorted(t)) for t in pair} for pair in (((a, b, c), (a, b, d)), ((c, d, a), (c, d, b))))
+        old, new = (
+            {tuple(sorted(t)) for t in pair} for pair in (((a, b, c), (a, b, d)), ((c, d, a), (c, d, b)))
+        )
         assert old <= elements
         elements = (elements - old) | new
         now = measure(criteria.costs(_mesh(mesh.nodes, elements), u, name), norm)
@@ -67,8 +72,10 @@ def _mesh(nodes, elements):
     return Mesh(nodes, rows).validate()
 
 
-@pytest.mark.parametrize("problem, name", [
-    (p, n) for p in ("33", "81") for n in criteria.names() if (p, n) != ("81", "gradient-spread")])  # slow
+@pytest.mark.parametrize(
+    "problem, name",
+    [(p, n) for p in ("33", "81") for n in criteria.names() if (p, n) != ("81", "gradient-spread")],
+)  # slow
 @pytest.mark.parametrize("norm", NORMS)
 def test_the_result_is_locally_optimal(name, norm, problem):
     u = problems.functions["SR3"]
@@ -133,13 +140,13 @@ def test_no_swap_creates_an_element_below_the_area(name, norm):
 @pytest.mark.parametrize("norm", [2, "lexicographic"])
 def test_a_limit_that_is_just_met_is_met_at_any_scale(scale, limit, norm):
     """Halves of squares have 45 degrees and half the area; rounding must not decide."""
-    limit = {k: v * scale ** 2 if k == "min_area" else v for k, v in limit.items()}
+    limit = {k: v * scale**2 if k == "min_area" else v for k, v in limit.items()}
     mesh = delaunay(lattice(3, 3) * scale)
     values = np.round(10 * np.sin(np.arange(16) ** 2))
     free, limited = swapped(mesh, values, norm=norm), swapped(mesh, values, norm=norm, **limit)
     squares = np.degrees(angles(free.mesh.corners)).min(axis=1) > 44
     assert limited.swaps > 0
-    assert np.isclose(limited.mesh.areas, 0.5 * scale ** 2).all() and squares.any()
+    assert np.isclose(limited.mesh.areas, 0.5 * scale**2).all() and squares.any()
 
 
 def test_no_limit_and_a_limit_of_zero_are_the_same():
@@ -160,18 +167,18 @@ def test_the_max_min_angle_criterion_gives_delaunay(norm, rng):
 
 
 @settings(max_examples=60)
-@given(problems_of(scales=(1.0, 2.0 ** -30)))
+@given(problems_of(scales=(1.0, 2.0**-30)))
 def test_with_ties_it_gives_a_delaunay_mesh(problem):
     mesh, values = problem
     assert is_delaunay(swapped(mesh, values, "smallest-angle", "max").mesh)
 
 
 def paraboloid(x, y):
-    return x ** 2 + y ** 2
+    return x**2 + y**2
 
 
 def bowl(x, y):
-    return np.exp(x + y / 2) + x ** 4 + 20 * y ** 2
+    return np.exp(x + y / 2) + x**4 + 20 * y**2
 
 
 @pytest.mark.parametrize("u", [paraboloid, bowl])
@@ -191,6 +198,7 @@ def test_convex_data_have_one_optimum(u, rng):
 
 def lower_hull(nodes, u):
     from scipy.spatial import ConvexHull
+
     hull = ConvexHull(np.column_stack([nodes, u(*nodes.T)]))
     return frozenset(tuple(sorted(t)) for t in hull.simplices[hull.equations[:, 2] < 0].tolist())
 
@@ -227,8 +235,16 @@ def test_no_interior_edge_no_swap():
         assert len(result.trace) == 0
 
 
-@pytest.mark.parametrize("values", [lambda v: v.tolist(), np.float32, lambda v: v.astype(int),
-                                    lambda v: np.repeat(v, 2)[::2], lambda v: v.astype(">f8")])
+@pytest.mark.parametrize(
+    "values",
+    [
+        lambda v: v.tolist(),
+        np.float32,
+        lambda v: v.astype(int),
+        lambda v: np.repeat(v, 2)[::2],
+        lambda v: v.astype(">f8"),
+    ],
+)
 def test_any_array_like_is_taken(values):
     mesh = problems.mesh("33")
     data = np.round(20 * problems.functions["SR1"](*mesh.nodes.T))
@@ -251,7 +267,7 @@ def test_place_and_size_do_not_matter(shift, scale):
 
 
 @pytest.mark.parametrize("name", ["jnd", "dlp"])
-@pytest.mark.parametrize("factor", [2.0 ** -60, 2.0 ** 60])
+@pytest.mark.parametrize("factor", [2.0**-60, 2.0**60])
 def test_the_size_of_the_data_does_not_matter(name, factor):
     mesh, u = problems.mesh("33"), problems.functions["SR2"](*problems.nodes("33").T)
     assert swapped(mesh, factor * u, name).mesh.equals(swapped(mesh, u, name).mesh)

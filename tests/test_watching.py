@@ -1,13 +1,14 @@
 """Long runs: a bar on request, and an interrupt that leaves a valid mesh."""
+
 import signal
 import threading
 
 import numpy as np
 import pytest
 
-import meshlib.watching
+import meshlib.support.progress
 from meshlib import Interrupted, delaunay, problems, swapped
-from meshlib.watching import Watch
+from meshlib.support.progress import Watch
 
 
 @pytest.fixture
@@ -24,6 +25,7 @@ def interrupted(monkeypatch):
         reports.append(done)
         if len(reports) == 2:
             signal.raise_signal(signal.SIGINT)
+
     monkeypatch.setattr(Watch, "part", 100)
     monkeypatch.setattr(Watch, "report", report)
     return reports
@@ -71,10 +73,11 @@ def test_the_bar_ends_at_the_number_of_edges_or_before(start, schedule, monkeypa
 
         def close(self):
             self.closed = True
-    monkeypatch.setattr(meshlib.watching, "bar", Bar)
+
+    monkeypatch.setattr(meshlib.support.progress, "bar", Bar)
     monkeypatch.setattr(Watch, "part", 100)
     swapped(start, problems.functions["franke"], schedule=schedule, progress=True)
-    bar, = Bar.made
+    (bar,) = Bar.made
     assert bar.total == start.n_edges and bar.closed and len(bar.seen) > 5
     assert all(0 <= n <= bar.total for n in bar.seen)
 

@@ -1,4 +1,5 @@
 """The mesh for a known function: nodes in, the best piecewise linear function out."""
+
 from dataclasses import dataclass, field, replace
 from functools import partial
 
@@ -6,17 +7,17 @@ import numpy as np
 
 from .. import checks
 from ..errors import Interrupted, MeshError
-from ..interpolant import Interpolant
-from ..mesh import Mesh
-from ..sides import sides_of
-from ..watching import Watch
-from .draft import Draft
-from .misfit import Misfit
-from .ridges import in_turn
+from ..interpolation.interpolant import Interpolant
+from ..mesh.boundary_sides import sides_of
+from ..mesh.mesh import Mesh
+from ..support.progress import Watch
+from .error_integrals import Misfit
+from .node_count import least
+from .one_direction import in_turn
 from .samples import Samples
-from .sizes import least
-from .starts import corners, fit, regular, start
+from .start_mesh import corners, fit, regular, start
 from .strategy import LAST_MOVES, SQUARINGS, polish, steps, strategy
+from .working_mesh import Draft
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
 RESOLUTION = 40  # spacings along a square as large as the domain, in which features are looked for
@@ -24,8 +25,15 @@ FINER = 4  # times as many for the error of what was found
 FEWEST, MOST_NODES = 4, 200_000  # nodes between which a tolerance is sought
 LARGEST_MIN_ANGLE = 30.0
 NORMS = "L2", "max"
-STEP = np.dtype([("step", "U8"), ("nodes", np.int64), ("elements", np.int64), ("error", np.float64),
-                 ("evaluations", np.int64)])
+STEP = np.dtype(
+    [
+        ("step", "U8"),
+        ("nodes", np.int64),
+        ("elements", np.int64),
+        ("error", np.float64),
+        ("evaluations", np.int64),
+    ]
+)
 
 
 @dataclass(frozen=True)
@@ -63,8 +71,17 @@ class Approximation:
         return Interpolant(self.mesh, self.values)
 
 
-def approximate(function, nodes=None, domain=UNIT_SQUARE, min_angle=None, seed=0, progress=False, *,
-                tolerance=None, norm="L2"):
+def approximate(
+    function,
+    nodes=None,
+    domain=UNIT_SQUARE,
+    min_angle=None,
+    seed=0,
+    progress=False,
+    *,
+    tolerance=None,
+    norm="L2",
+):
     """The mesh of so many nodes, or of such an error, whose interpolant is nearest to a function.
 
     Nodes go in where the error is largest, out where they serve least, and move and
@@ -187,11 +204,14 @@ class _Task:
             found = self.with_nodes(nodes)
             spent.append(found.evaluations)
             return found
+
         smallest = len(sides_of(start(self.domain, FEWEST, self.seed)).corners)
         found = least(trial, tolerance, smallest, MOST_NODES)
         if found is None:
-            raise MeshError("tolerance", f"the tolerance {tolerance} is not reached with {MOST_NODES} nodes; "
-                            "give a larger one")
+            raise MeshError(
+                "tolerance",
+                f"the tolerance {tolerance} is not reached with {MOST_NODES} nodes; give a larger one",
+            )
         return replace(found, evaluations=sum(spent))
 
     def _ridge(self, misfit, nodes):
@@ -204,11 +224,13 @@ class _Task:
     def _run(self, draft, total, adapt):
         history = []
         with Watch(self.progress, total, "step") as watch:
+
             def note(step):
                 history.append((step, *_state(draft)))
                 watch.report(len(history))
                 if watch.stopped:
                     raise Interrupted(self._result(draft, history))
+
             adapt(note)
             draft.measure_finely(FINER)
             note("measured")
@@ -216,8 +238,15 @@ class _Task:
 
     def _result(self, draft, history):
         values = draft.values * draft.misfit.unit
-        return Approximation(draft.mesh, values, draft.error, draft.misfit.evaluations,
-                             np.array(history, dtype=STEP), self.seed, self.norm)
+        return Approximation(
+            draft.mesh,
+            values,
+            draft.error,
+            draft.misfit.evaluations,
+            np.array(history, dtype=STEP),
+            self.seed,
+            self.norm,
+        )
 
 
 def _state(draft):

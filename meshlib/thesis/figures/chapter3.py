@@ -1,4 +1,5 @@
 """Figures of chapter 3: how a mesh is adapted."""
+
 import numpy as np
 
 import meshlib as ml

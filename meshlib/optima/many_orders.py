@@ -1,0 +1,206 @@
+"""Many edge orders: which local optima the local optimisation procedure reaches."""
+
+import sys
+import warnings
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import checks
+from ..errors import missing_extra
+from ..mesh.mesh import Mesh
+from ..mesh.topology import canonical
+from ..support.progress import bar
+from ..swapping.swapped import prepared
+
+ORDERS_AT_ONCE = 500  # how many a worker takes at most
+PARTS = 64  # into which fewer orders are cut, so that every worker gets some
+
+
+@dataclass(frozen=True)
+class LocalOptima:
+    """The distinct meshes that many edge orders lead to, in the order they were found.
+
+    Attributes
+    ----------
+    start : Mesh
+    elements : (M, T, 3) ndarray of int32
+        Each optimum: elements with their smallest node first, in lexicographic order.
+    costs : (M,) ndarray of float64
+        Norm of the cost vector of each.
+    optimum : (n,) ndarray of int64
+        For each order the number of the optimum it leads to.
+    seed : int
+        Order k is ``order_of(seed, k, n_edges)``.
+    """
+
+    start: Mesh = field(repr=False)
+    elements: np.ndarray = field(repr=False)
+    costs: np.ndarray = field(repr=False)
+    optimum: np.ndarray = field(repr=False)
+    seed: int
+
+    def __len__(self):
+        return len(self.elements)
+
+    @property
+    def counts(self):
+        """(M,) int64: how many orders lead to each optimum."""
+        return np.bincount(self.optimum, minlength=len(self))
+
+    @property
+    def best(self):
+        """The mesh of least cost; of several the one found first."""
+        return self.mesh(self.costs.argmin())
+
+    def mesh(self, number):
+        """An optimum as a Mesh."""
+        return Mesh._trusted(self.start.nodes, self.elements[number])
+
+
+def order_of(seed, number, n_edges):
+    """The random edge order of that number, the same on every platform.
+
+    Parameters
+    ----------
+    seed, number, n_edges : int
+
+    Returns
+    -------
+    (n_edges,) ndarray of int64
+
+    Examples
+    --------
+    >>> order_of(0, 1, 5).tolist()
+    [1, 4, 3, 0, 2]
+    """
+    return np.random.default_rng([seed, number]).permutation(n_edges)
+
+
+def local_optima(
+    mesh,
+    values,
+    criterion="jnd",
+    norm=2,
+    orders=100,
+    seed=0,
+    min_angle=None,
+    min_area=None,
+    tolerance=None,
+    workers=None,
+    progress=False,
+):
+    """Run the local optimisation procedure with many random edge orders (section 6.3).
+
+    Parameters
+    ----------
+    mesh, values, criterion, norm, min_angle, min_area, tolerance
+        As for `meshlib.swapped`.
+    orders : int
+        How many orders.
+    seed : int
+        Of the orders, at least 0.
+    workers : int, optional
+        Processes to share the work, -1 for one on each core, not 0.  By default what
+        ``joblib.parallel_config`` says, else one.  The result does not depend on it.
+    progress : bool
+        Whether to show a progress bar.
+
+    Returns
+    -------
+    LocalOptima
+
+    Raises
+    ------
+    MeshError
+        As `meshlib.swapped`, or if ``orders``, ``seed`` or ``workers`` is out of range.
+
+    Notes
+    -----
+    The orders are shared out by joblib, on the cores of one machine or, with ``dask`` and
+    ``distributed`` installed here and meshlib on every machine, on a cluster::
+
+        client = distributed.Client("scheduler:8786")  # or distributed.Client() for this machine
+        with joblib.parallel_config(backend="dask"):
+            found = local_optima(mesh, values, orders=100_000, progress=True)
+
+    Examples
+    --------
+    The best of a hundred orders, and how many different meshes there were:
+
+    >>> from meshlib import problems
+    >>> found = local_optima(problems.mesh("33"), problems.SR2, "abn", norm=1)
+    >>> found.best
+    Mesh(33 nodes, 88 edges, 56 elements)
+    >>> print(f"{len(found)} optima cost {found.costs.min():.1f} to {found.costs.max():.1f}")
+    38 optima cost 16.8 to 22.1
+    """
+    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance)
+    orders, seed = checks.whole(orders, 1, "orders"), checks.whole(seed, 0, "seed")
+    workers = None if workers is None else checks.workers(workers)
+    size = min(ORDERS_AT_ONCE, -(-orders // PARTS))
+    parts = [(procedure, seed, range(k, min(k + size, orders))) for k in range(0, orders, size)]
+    return _merged(procedure, seed, list(shared(_distinct, parts, workers, progress, total=len(parts))))
+
+
+def _distinct(procedure, seed, numbers):
+    """Distinct results of some orders, and for each order which one."""
+    known, optimum = {}, []
+    for number in numbers:
+        done = procedure.run(order_of(seed, number, procedure.mesh.n_edges))
+        key = canonical(done.elements).tobytes()
+        optimum.append(known.setdefault(key, len(known)))
+    return list(known), optimum
+
+
+def _merged(procedure, seed, parts):
+    known, optimum = {}, []
+    for keys, local in parts:
+        place = np.array([known.setdefault(key, len(known)) for key in keys])
+        optimum.append(place[local])
+    elements = np.frombuffer(b"".join(known), dtype=np.int32).reshape(len(known), -1, 3)
+    meshes = (Mesh._trusted(procedure.mesh.nodes, found) for found in elements)
+    costs = np.array([procedure.cost(mesh) for mesh in meshes])
+    return LocalOptima(procedure.mesh, elements, costs, np.concatenate(optimum), seed)
+
+
+def shared(function, parts, workers=None, progress=False, unit="part", total=None):
+    """Results of ``function(*part)`` for each part, in order, from many workers.
+
+    A generator: who stops asking stops the work.  With ``progress`` a bar is shown,
+    which knows the end if ``total`` is given.
+    """
+    results = _in_turn(function, parts) if _is_one(workers) else _in_parallel(function, parts, workers)
+    return bar(results, total=total, unit=unit) if progress else results
+
+
+def _is_one(workers):
+    """Whether there is one worker; for None joblib tells, if it has been imported to be told of others."""
+    if workers is None and "joblib" in sys.modules:
+        return sys.modules["joblib"].effective_n_jobs(None) == 1
+    return workers in (None, 1)
+
+
+def _in_turn(function, parts):
+    return (function(*part) for part in parts)
+
+
+def _in_parallel(function, parts, workers):
+    joblib = _joblib()
+    jobs = (joblib.delayed(function)(*part) for part in parts)
+    results = joblib.Parallel(n_jobs=workers, return_as="generator")(jobs)
+    try:
+        for result in results:  # noqa: UP028 - "yield from" would close them before the warning is silenced
+            yield result
+    finally:
+        with warnings.catch_warnings():  # that some work was in vain
+            warnings.simplefilter("ignore")
+            results.close()
+
+
+def _joblib():
+    try:
+        import joblib
+    except ImportError:
+        raise missing_extra("joblib", "studies") from None
+    return joblib
