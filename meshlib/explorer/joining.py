@@ -115,8 +115,8 @@ class Module:
     def as_function(self):
         """The module as a constant with its exports."""
         text = IMPORT.sub(lambda place: f"const {{{place[1]}}} = {constant(place[2])};", self.text)
-        return (f"const {constant(self.path)} = (() => {{\n{EXPORT.sub('', text)}"
-                f"return {{ {', '.join(self.exports)} }};\n}})();\n")
+        text, exports = EXPORT.sub("", text), ", ".join(self.exports)
+        return f"const {constant(self.path)} = (() => {{\n{text}return {{ {exports} }};\n}})();\n"
 
 
 def _names(place):
