@@ -45,7 +45,7 @@ lock: ## Pin the newest versions that pyproject.toml allows in requirements.txt
 	echo '-e .' >> requirements.txt
 
 clean: ## Remove everything that is not in the repository, the environment too
-	rm -rf $(VENV) $(VENV)-lock _build build *.egg-info .pytest_cache .hypothesis .ruff_cache
+	rm -rf $(VENV) $(VENV)-lock _build build *.egg-info .pytest_cache .hypothesis .ruff_cache node_modules
 	find . -name __pycache__ -prune -exec rm -rf {} +
 
 $(READY): requirements.txt pyproject.toml

@@ -1,12 +1,15 @@
 """ES modules become one script: what is understood, and what is refused by file and line."""
 
+import json
 import re
+from pathlib import Path
 
 import pytest
 
 from meshlib.explorer import scripts
 from meshlib.explorer.joining import NAME, Module, ScriptError, constant, joined
 
+ROOT = Path(__file__).parents[1]
 FILES = sorted((scripts.HERE / "js").glob("*.js"))
 
 
@@ -139,3 +142,18 @@ def test_every_export_is_used():
 
 def test_the_widget_has_its_hook_as_default_export():
     assert scripts.module().endswith("return { render };\n})();\nexport default $widget;\n")
+
+
+# -- the tools that check them -----------------------------------------------------------------------
+
+
+def test_the_lock_file_of_the_tools_names_no_host_and_every_hash():
+    packages = json.loads((ROOT / "package-lock.json").read_text())["packages"]
+    installed = {name: package for name, package in packages.items() if name}
+    assert not [name for name, package in installed.items() if "resolved" in package]
+    assert not [name for name, package in installed.items() if "integrity" not in package]
+
+
+def test_the_tools_are_pinned():
+    wanted = json.loads((ROOT / "package.json").read_text())["devDependencies"]
+    assert all(re.fullmatch(r"\d+\.\d+\.\d+", version) for version in wanted.values())

@@ -76,7 +76,8 @@ const NORMS = { 1: sum, 2: (/** @type {number[]} */ costs) => sum(costs.map((cos
 /** What the norm compares of the five edges, or two elements, of a quadrilateral.
  * @type {(mesh: Mesh, criterion: Criterion, corners: number[]) => number} */
 function localCost(mesh, criterion, corners) {
-  const inside = (/** @type {Iterable<number>} */ nodes) => Array.from(nodes).every((n) => corners.includes(n));
+  /** @type {(nodes: Pair | Uint32Array) => boolean} */
+  const inside = (nodes) => Array.from(nodes).every((n) => corners.includes(n));
   /** @type {number[]} */
   const costs = [];
   if (criterion.on === "edge") {

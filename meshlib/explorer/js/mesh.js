@@ -3,7 +3,7 @@
 /** @import { Box, Edges, Frame, Mesh, Pair, Points, Scene, Triple } from "./types" */
 
 export const DEGREE = Math.PI / 180;                 // radians
-const MOST_POINTS = 2 ** 26;                         // of an atlas: two numbers below it make one exact number
+const MOST_POINTS = 2 ** 26;                         // two numbers below it make one that is still exact
 
 /** Sum of some numbers.
  * @type {(numbers: number[]) => number} */

@@ -121,7 +121,8 @@ export interface Mesh extends Points, Frame, Edges {
   size: number;
 }
 
-export type EdgeCost = (points: Points, p: number, q: number, g: Pair, h: Pair, l: number, r: number) => number;
+export type EdgeCost =
+  (points: Points, p: number, q: number, g: Pair, h: Pair, l: number, r: number) => number;
 export type ElementCost = (mesh: Mesh, t: number) => number;
 
 /** Label, decimals, and a measure of element t. */

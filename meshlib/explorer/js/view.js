@@ -6,7 +6,9 @@ import { flat } from "./drawing.js";
 import { drawTarget, makeInspectable } from "./inspection.js";
 import { errorOf, largestOf, numbersOf } from "./measures.js";
 import { boxOf, meshOf } from "./mesh.js";
-import { EYE, fillTable, HINT, layout, makeTurnable, PANELS, short, triedText, watchTheme } from "./panels.js";
+import {
+  EYE, fillTable, HINT, layout, makeTurnable, PANELS, short, triedText, watchTheme,
+} from "./panels.js";
 import { canvasPen } from "./pens.js";
 import { savePng, saveSvg, svgOf } from "./saving.js";
 import { normalised } from "./surface.js";
@@ -44,8 +46,10 @@ export function makeView() {
     describe(page, prepared);
     drawAll();
   };
-  page.panels.forEach(({ canvas }, k) => (PANELS[k].turns ? makeTurnable(canvas, eye, () => draw(k))
-                                                           : makeInspectable(canvas, () => shownOn(k), tell)));
+  page.panels.forEach(({ canvas }, k) => {
+    if (PANELS[k].turns) makeTurnable(canvas, eye, () => draw(k));
+    else makeInspectable(canvas, () => shownOn(k), tell);
+  });
   page.tools.append(...saveButtons(() => prepared && { ...prepared, eye }));
   const sizes = new ResizeObserver(drawAll), forgetTheme = watchTheme(drawAll);
   page.panels.forEach(({ canvas }) => sizes.observe(canvas));
@@ -133,5 +137,6 @@ function describe({ panels, table, title, note, readout }, shown) {
  * @type {(shown: Prepared) => string} */
 function noteOf({ scene, frame, mesh }) {
   if (!frame) return "The start mesh.";
-  return mesh.tried ? triedText(mesh, mesh.tried, scene, frame) : `After ${scene.atlas.header.film} ${frame}.`;
+  if (!mesh.tried) return `After ${scene.atlas.header.film} ${frame}.`;
+  return triedText(mesh, mesh.tried, scene, frame);
 }
