@@ -143,7 +143,7 @@ def get(criterion):
     """
     if isinstance(criterion, Criterion):
         return criterion
-    if criterion == "min-error":
+    if criterion == "min-error" and criterion not in _registry:
         raise MeshError("unknown", "'min-error' needs the function u; pass criteria.min_error(u)")
     return _registry[checks.choice(criterion, names(), "criterion")]
 

@@ -20,7 +20,7 @@ def build(controls, settings):
 
 
 def _widget(control, value):
-    options = list(zip(control.texts, control.options, strict=True))
+    options = [(text, option) for option, text in control.texts_by_value.items()]
     kind = ipywidgets.Dropdown if control.kind == MENU else ipywidgets.SelectionSlider
     return kind(
         options=options, value=value, description=control.label, style=LABEL, layout={"width": "auto"}

@@ -1,9 +1,10 @@
-// Costs of edges and elements by the built-in criteria, as in meshlib/criteria/costs.py.
+// Costs of edges, elements and nodes: by the formulas of the built-in criteria, as in
+// meshlib/criteria/cost_functions.py, or those that an atlas has for a user-defined criterion.
 
-import { swap } from "./atlas.js";
+import { partOf, swap } from "./atlas.js";
 import { anglesOf, cornersOf, edgesOf, endsOf, gradient, opposite, sidesOf, sum } from "./mesh.js";
 
-/** @import { Criterion, EdgeCost, ElementCost, Mesh, Pair, Points, Try } from "./types" */
+/** @import { Costs, Criterion, EdgeCost, ElementCost, Mesh, Pair, Points, Try } from "./types" */
 
 export const EQUILATERAL = Math.PI / 3;              // radians
 
@@ -41,10 +42,13 @@ const ELEMENT_COSTS = {
   "largest-angle": (mesh, t) => Math.max(Math.max(...anglesOf(mesh, t)) - EQUILATERAL, 0),
 };
 
+// -- costs of a mesh ----------------------------------------------------------------------------
+
 /** Cost of edge e; 0 on the boundary.
  * @type {(mesh: Mesh, criterion: Criterion, e: number) => number} */
 export function edgeCost(mesh, { cost }, e) {
   const [p, q] = endsOf(mesh, e), [s, t] = sidesOf(mesh, e);
+  if (mesh.costs) return givenCost(mesh.costs, [p, q]);
   if (t < 0) return 0;
   const l = opposite(mesh, s, p, q), r = opposite(mesh, t, p, q);
   return EDGE_COSTS[cost](mesh, p, q, gradient(mesh, p, q, l), gradient(mesh, q, p, r), l, r);
@@ -52,7 +56,15 @@ export function edgeCost(mesh, { cost }, e) {
 
 /** Cost of element t.
  * @type {(mesh: Mesh, criterion: Criterion, t: number) => number} */
-export const elementCost = (mesh, { cost }, t) => ELEMENT_COSTS[cost](mesh, t);
+export const elementCost = (mesh, { cost }, t) =>
+  (mesh.costs ? givenCost(mesh.costs, cornersOf(mesh, t)) : ELEMENT_COSTS[cost](mesh, t));
+
+/** Cost of node n; there is no formula for any criterion on nodes.
+ * @type {(mesh: Mesh, n: number) => number} */
+export const nodeCost = ({ costs = new Map() }, n) => givenCost(costs, [n]);
+
+/** @type {(costs: Costs, points: Iterable<number>) => number} */
+const givenCost = (costs, points) => costs.get(partOf(points)) ?? 0;
 
 /** Mean cost of the three sides of element t.
  * @type {(mesh: Mesh, criterion: Criterion, t: number) => number} */
@@ -63,6 +75,10 @@ export function meanOfSides(mesh, criterion, t) {
   }
   return total / 3;
 }
+
+/** Mean cost of the three nodes of element t.
+ * @type {(mesh: Mesh, t: number) => number} */
+export const meanOfNodes = (mesh, t) => sum(Array.from(cornersOf(mesh, t), (n) => nodeCost(mesh, n))) / 3;
 
 // -- swaps --------------------------------------------------------------------------------------
 
@@ -95,6 +111,7 @@ function localCost(mesh, criterion, corners) {
 /** The local cost with the old edge of what was tried, and with the new one.
  * @type {(mesh: Mesh, tried: Try, criterion: Criterion) => Pair} */
 export function triedCosts(mesh, { a, b, c, d, accepted }, criterion) {
+  if (mesh.local) return mesh.local;
   const elements = mesh.elements.slice();
   swap(elements, accepted ? { a: c, b: d, c: a, d: b } : { a, b, c, d }, mesh);
   const [here, there] = [mesh, { ...mesh, elements, ...edgesOf(elements) }]

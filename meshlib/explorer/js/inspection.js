@@ -1,6 +1,6 @@
 // The edge or element under the pointer, or chosen by arrow keys, and its cost.
 
-import { edgeCost, elementCost, meanOfSides } from "./costs.js";
+import { edgeCost, elementCost, meanOfNodes, meanOfSides, nodeCost } from "./costs.js";
 import { strokeEdges, TRIED } from "./drawing.js";
 import { anglesOf, cornersOf, DEGREE, endsOf, sidesOf } from "./mesh.js";
 
@@ -51,23 +51,31 @@ function textOf(shown, { edge, element }) {
   return element === undefined ? "" : elementText(shown, element);
 }
 
-/** The cost of an edge, or those of the elements that meet there.
+/** The cost of an edge, or those of the elements or nodes that it joins.
  * @type {(shown: Shown, e: number) => string} */
 function edgeText({ mesh, scene }, e) {
-  const at = endsOf(mesh, e).map((n) => pointText(mesh, n)).join(" to "), name = nameOf(scene.cost);
-  if (sidesOf(mesh, e)[1] < 0) return `Edge ${at}, on the boundary.`;
-  if (scene.on === "edge") return `Edge ${at}: ${name} ${digits(edgeCost(mesh, scene, e))}.`;
-  const costs = sidesOf(mesh, e).map((t) => digits(elementCost(mesh, scene, t)));
-  return `Edge ${at}: ${name} of its elements ${costs.join(" and ")}.`;
+  const at = endsOf(mesh, e).map((n) => pointText(mesh, n)).join(" to ");
+  const name = nameOf(scene.cost), onBoundary = sidesOf(mesh, e)[1] < 0;
+  if (onBoundary && scene.on !== "node") return `Edge ${at}, on the boundary.`;
+  return `Edge ${at}: ${name} ` + {
+    edge: () => `${digits(edgeCost(mesh, scene, e))}.`,
+    element: () => `of its elements ${both(sidesOf(mesh, e), (t) => elementCost(mesh, scene, t))}.`,
+    node: () => `of its nodes ${both(endsOf(mesh, e), (n) => nodeCost(mesh, n))}.`,
+  }[scene.on]();
 }
 
-/** The cost of an element, or the mean cost of its edges.
+/** @type {(numbers: Pair, cost: (number: number) => number) => string} */
+const both = (numbers, cost) => numbers.map((n) => digits(cost(n))).join(" and ");
+
+/** The cost of an element, or the mean cost of its edges or nodes.
  * @type {(shown: Shown, t: number) => string} */
 function elementText({ mesh, scene }, t) {
   const largest = digits(Math.max(...anglesOf(mesh, t)) / DEGREE), name = nameOf(scene.cost);
-  const cost = scene.on === "edge" ? `mean ${name} of its edges ${digits(meanOfSides(mesh, scene, t))}`
-    : `${name} ${digits(elementCost(mesh, scene, t))}`;
-  return `Element with an angle of ${largest}°: ${cost}.`;
+  return `Element with an angle of ${largest}°: ` + {
+    edge: () => `mean ${name} of its edges ${digits(meanOfSides(mesh, scene, t))}.`,
+    element: () => `${name} ${digits(elementCost(mesh, scene, t))}.`,
+    node: () => `mean ${name} of its nodes ${digits(meanOfNodes(mesh, t))}.`,
+  }[scene.on]();
 }
 
 /** Abbreviations such as "jnd" are written in capitals, names such as "smallest-angle" are not.

@@ -11,9 +11,9 @@ export const sum = (numbers) => numbers.reduce((total, number) => total + number
 
 /** The mesh of a frame; its nodes are numbers of points of the atlas.
  * @type {(scene: Scene, frame: Frame) => Mesh} */
-export function meshOf({ atlas }, { elements, swaps, tried }) {
-  const { x, y, u } = atlas;
-  return { x, y, u, elements, swaps, tried, ...edgesOf(elements),
+export function meshOf({ atlas: { x, y, u } }, frame) {
+  const { elements } = frame;
+  return { ...frame, x, y, u, ...edgesOf(elements),
            nodes: Uint32Array.from(new Set(elements)), size: elements.length / 3 };
 }
 

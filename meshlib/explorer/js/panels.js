@@ -14,6 +14,9 @@ export const HINT = "Point at an edge or an element, or use the arrow keys, to s
 /** @type {Eye} */
 export const EYE = { azimuth: -60 * DEGREE, elevation: 32 * DEGREE };
 
+// The parts of a mesh whose costs a swap changes.
+const AROUND = { edge: "five edges", element: "two elements", node: "four nodes" };
+
 /** @type {Panel[]} */
 export const PANELS = [
   { name: "mesh", caption: "mesh over the interpolant", draw: drawMesh, table: VIRIDIS,
@@ -82,9 +85,8 @@ export function short(value, [low, high]) {
 export function triedText(mesh, tried, scene, frame) {
   const [old, other] = tried.accepted ? ["dashed", "solid"] : ["solid", "dashed"];
   const [before, after] = triedCosts(mesh, tried, scene).map((cost) => cost.toPrecision(4));
-  const where = scene.on === "edge" ? "five edges" : "two elements";
-  return `Try ${frame}: the ${old} edge against the ${other} one. Cost of the ${where}: ${before} before, `
-    + `${after} after. ${tried.accepted ? "Swapped." : "Kept."}`;
+  return `Try ${frame}: the ${old} edge against the ${other} one. Cost of the ${AROUND[scene.on]}: `
+    + `${before} before, ${after} after. ${tried.accepted ? "Swapped." : "Kept."}`;
 }
 
 // -- turning, and the theme --------------------------------------------------------------------

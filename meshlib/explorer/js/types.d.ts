@@ -19,8 +19,10 @@ export interface Header {
 /** The criterion whose costs are told, and the norm by which tried swaps were compared. */
 export interface Criterion {
   cost: string;
-  on: "edge" | "element";
+  on: "edge" | "element" | "node";
   norm: "1" | "2" | "max" | "lexicographic";
+  /** Whether the atlas has the costs, for which there is no formula in costs.js. */
+  given?: boolean;
 }
 
 export interface Caption extends Criterion {
@@ -42,7 +44,7 @@ export interface Points {
   u: Float64Array;
 }
 
-export interface Atlas extends Points {
+export interface Atlas extends Points, Partial<GivenCosts> {
   header: Header;
   /** The function of each scene on a grid of 101 x 101 points, row by row from below. */
   grids: Float32Array;
@@ -72,6 +74,24 @@ export interface Atlas extends Points {
   index: Numbers;
 }
 
+/** Costs of user-defined criteria, from cost_changes.py; in an atlas if any of its scenes has such. */
+export interface GivenCosts {
+  /** Where the rows of each scene begin, and where the last ones end. */
+  changes: Numbers;
+  /** For each row: the mesh of the scene from which on the cost holds, the points p <= q <= r of an
+   * element, an edge (q = r) or a node (p = q = r), and the cost. */
+  stage: Numbers;
+  p: Numbers;
+  q: Numbers;
+  r: Numbers;
+  cost: Float64Array;
+  /** Where the tries of each scene begin, and where the last ones end. */
+  tries: Numbers;
+  /** For each try: what the norm compares of the costs with the old and with the new edge. */
+  old: Float64Array;
+  new: Float64Array;
+}
+
 // -- a scene and its frames -----------------------------------------------------------------------
 
 export interface Scene extends Caption {
@@ -86,6 +106,8 @@ export interface Scene extends Caption {
   frames: number;
   /** Whether a frame is a try. */
   traced: boolean;
+  /** Number of the scene in the atlas. */
+  number: number;
 }
 
 /** A swap that was tried: of the edge a-b for c-d. */
@@ -97,12 +119,19 @@ export interface Try {
   accepted: boolean;
 }
 
+/** Cost of each edge, element or node by its points; those that are missing have cost 0. */
+export type Costs = Map<string, number>;
+
 export interface Frame {
   /** Three points of the atlas for each element, counter-clockwise. */
   elements: Uint32Array;
   /** Swaps made since the start mesh. */
   swaps: number;
   tried?: Try;
+  /** Costs for which there is no formula. */
+  costs?: Costs;
+  /** Those around the try: with the old edge, and with the new one. */
+  local?: Pair;
 }
 
 export interface Edges {
