@@ -9,9 +9,10 @@ from .._typing import FloatArray, Function, Norm
 from ..criteria.criterion import Criterion
 from ..interpolation.interpolant import Interpolant
 from ..mesh.mesh import Mesh
-from ..mesh.quality import MEASURES, Quality, quality
+from ..mesh.quality import Quality, quality
 
 GRID = 101  # points along each side of the grid on which the thesis measures errors
+MEASURES = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
 UNITS = {"maximum_angle": " (°)"}
 NO_TRACE = ()
 
@@ -29,7 +30,7 @@ class Scene:
     film : tuple of Mesh
         The meshes after the start, at least one; the last is the adapted mesh.
     trace : structured array
-        Tried swaps as in `meshlib.swapping.swapped.Swapping.trace`, which lead from the start to
+        Tried swaps as in `meshlib.swapping.swapped.Swapping.history`, which lead from the start to
         the only mesh of the film; then each try is a frame.
     swaps : int
     cost : str or Criterion

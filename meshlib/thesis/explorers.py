@@ -64,9 +64,9 @@ def _criterion(on_page=_quick_criteria):
 
 def _swaps(function, nodes, criterion, norm):
     start, u = problems.mesh(nodes), problems.functions[function]
-    found = swapped(start, u, criterion, norm, problems.order(nodes))
+    found = swapped(start, u, criterion, norm=norm, order=problems.order(nodes))
     title = f"{function} on {nodes} nodes, {criterion.upper()}-{NORM_NAMES[norm]}"
-    return Scene(title, u, start, (found.mesh,), found.trace, found.swaps, criterion, norm)
+    return Scene(title, u, start, (found.mesh,), found.history, found.swaps, criterion, norm)
 
 
 SWAPS = Exploration(
@@ -114,7 +114,7 @@ def _passes(mesh, u, percentage, refine_by, mark, split):
         return (mesh,)
     film = []
     for _ in range(PASSES):
-        mesh = refined(mesh, u, refine_by, percentage / 100, mark, split).mesh
+        mesh = refined(mesh, u, refine_by, fraction=percentage / 100, mark=mark, split=split).mesh
         if film and mesh.n_nodes > MOST_NODES:
             break
         film.append(mesh)
@@ -213,7 +213,7 @@ def _movement(function, nodes, springs):
     constants = DataSprings(u) if springs != EQUAL else None
     film, movement = [], np.inf
     while movement and len(film) < MOST_SWEEPS:
-        moved = smoothed(film[-1] if film else start, constants, sweeps=1, sliding=springs == SLIDING)
+        moved = smoothed(film[-1] if film else start, constants, max_sweeps=1, sliding=springs == SLIDING)
         film.append(moved.mesh)
         movement = moved.movement
     return Scene(f"{function} on {nodes} nodes, springs {springs}", u, start, tuple(film))
@@ -243,7 +243,7 @@ def _approximation(function, nodes):
         f"{function} by {nodes} nodes, beside a lattice of {side} × {side}",
         u,
         start,
-        (approximate(u, nodes).mesh,),
+        (approximate(u, nodes=nodes).mesh,),
     )
 
 
