@@ -142,8 +142,8 @@ def test_the_meshes_of_a_trace_lead_to_the_swapped_mesh(swaps):
 
 def test_scripts_have_a_formula_where_python_says_so():
     script = (scripts.HERE / "js" / "costs.js").read_text(encoding="utf-8")
-    tables = re.findall(r"^const (?:EDGE|ELEMENT)_COSTS = \{(.*?)^\};", script, re.M | re.S)
-    names = re.findall(r'^  "?([\w-]+)"?[:(]', "".join(tables), re.M)
+    tables = re.findall(r"^const (?:EDGE|ELEMENT)_COSTS = \{(.*?)^\};", script, re.MULTILINE | re.DOTALL)
+    names = re.findall(r'^  "?([\w-]+)"?[:(]', "".join(tables), re.MULTILINE)
     assert names == [name for name in criteria.names() if has_formula(criteria.get(name))]
 
 

@@ -47,7 +47,7 @@ def test_a_module_that_two_others_import_is_there_once(write):
         second='import { c } from "./base.js";\nexport const b = c;\n',
         base="export const c = 1;\n",
     )
-    assert re.findall(r"^const (\S+) = \(\(\)", joined(entry), re.M) == [
+    assert re.findall(r"^const (\S+) = \(\(\)", joined(entry), re.MULTILINE) == [
         "$base",
         "$first",
         "$second",
@@ -130,7 +130,7 @@ def test_a_circle_is_told_with_all_its_files(write):
 def test_every_script_is_in_the_widget_or_on_a_page():
     texts = scripts.module(), scripts.classic()
     constants = {constant(file) for file in FILES}
-    assert constants == set(re.findall(r"^const (\$\w+) = \(\(\)", "".join(texts), re.M))
+    assert constants == set(re.findall(r"^const (\$\w+) = \(\(\)", "".join(texts), re.MULTILINE))
 
 
 def test_every_export_is_used():

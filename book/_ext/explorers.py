@@ -21,10 +21,11 @@ WIDGETS = "application/vnd.jupyter.widget-state+json"  # longer than all the res
 SLOW = ("approximation",)  # explorers whose states take seconds each, so that all cores share them
 FIRST = 100  # priority of the scripts, before those of Sphinx, which have 200
 LAST = 900  # priority of the listener, after those that add other scripts
+EVERY = tuple(ALL.values())
 logger = logging.getLogger(__name__)
 
 
-def write(folder, explorations=tuple(ALL.values())):
+def write(folder, explorations=EVERY):
     """Write the scripts and styles of explorers, and the states of some, into the folder of static files."""
     folder = Path(folder)
     (folder / FOLDER).mkdir(parents=True, exist_ok=True)

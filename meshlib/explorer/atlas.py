@@ -1,12 +1,13 @@
 """Scenes as bytes that a browser can read: an atlas holds one scene, or all of a page."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 import numpy as np
 
 from ..criteria.registry import get
-from .controls import Exploration
+from .controls import Control, Exploration
 from .scene import Scene
 from .tables import Tables
 
@@ -43,7 +44,7 @@ def packed(exploration: Exploration, scenes: Sequence[Scene], index: Sequence[in
     return _joined(header, tables.arrays() | {"index": np.array(index or [0])})
 
 
-def pages(exploration: Exploration, map: Callable = map) -> bytes:
+def pages(exploration: Exploration, map: Callable[..., Iterable[Scene]] = map) -> bytes:
     """The atlas of all settings on a page.
 
     Settings that lead to the same scene, such as rules that mark no element, share it.
@@ -59,7 +60,9 @@ def pages(exploration: Exploration, map: Callable = map) -> bytes:
     bytes
         As made by `packed`.
     """
-    scenes, numbers, index = {}, {}, []
+    scenes: dict[tuple[str, str], Scene] = {}
+    numbers: dict[tuple[str, str], int] = {}
+    index = []
     for scene in map(exploration.computed, exploration.pages()):
         shown = scene.title, get(scene.cost).name
         scenes.setdefault(shown, scene)
@@ -67,7 +70,7 @@ def pages(exploration: Exploration, map: Callable = map) -> bytes:
     return packed(exploration, list(scenes.values()), index)
 
 
-def _described(control):
+def _described(control: Control) -> dict[str, Any]:
     texts = control.texts_by_value
     return {
         "name": control.name,
@@ -78,7 +81,7 @@ def _described(control):
     }
 
 
-def _joined(header, arrays):
+def _joined(header: dict[str, Any], arrays: dict[str, np.ndarray]) -> bytes:
     listed, blocks, offset = {}, [], 0
     for name, array in arrays.items():
         kind = _smallest_type(array)
@@ -91,7 +94,7 @@ def _joined(header, arrays):
     return len(text).to_bytes(4, "little") + text + b"".join(blocks)
 
 
-def _smallest_type(array):
+def _smallest_type(array: np.ndarray) -> str:
     if array.dtype == "f4":
         return "f4"
     if array.dtype.kind == "f":

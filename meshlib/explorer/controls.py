@@ -56,12 +56,12 @@ class Control:
         return tuple(_now(self.given_on_page)) or self.options
 
 
-def _now(given):
+def _now(given: Any) -> Any:
     """What was given, or what the function that was given returns now."""
     return given() if callable(given) else given
 
 
-def _kept(given):
+def _kept(given: Any) -> Any:
     """What was given in a form that can be read again and again."""
     return given if callable(given) or isinstance(given, Mapping) else tuple(given)
 

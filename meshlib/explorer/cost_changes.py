@@ -4,6 +4,8 @@ From one mesh of a scene to the next most costs stay as they are, so an atlas li
 that change.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from .._typing import IntArray
@@ -20,7 +22,9 @@ def has_formula(criterion: Criterion) -> bool:
     return not criterion.is_own
 
 
-def changes(scene: Scene, criterion: Criterion, numbers) -> list[tuple]:
+def changes(
+    scene: Scene, criterion: Criterion, numbers: Callable[[Mesh], IntArray]
+) -> list[tuple[int | float, ...]]:
     """The costs that change from mesh to mesh.
 
     Parameters
@@ -38,7 +42,8 @@ def changes(scene: Scene, criterion: Criterion, numbers) -> list[tuple]:
         second one twice, or a node three times); and its cost from that mesh on. Before
         its first row a part has cost 0.
     """
-    known, rows = {}, []
+    known: dict[tuple[int, ...], float] = {}
+    rows = []
     for stage, mesh in enumerate(scene.meshes):
         parts = np.sort(numbers(mesh)[_parts(mesh, criterion.on)], axis=1)
         costs = criterion.costs(mesh, scene.function)

@@ -14,6 +14,7 @@ Two statements are understood, each at the start of a line: ``import { name, ...
 """
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -28,7 +29,7 @@ class ScriptError(ValueError):
     """Modules that cannot be joined; the message has a line for each fault, with its file and line."""
 
 
-def joined(entry):
+def joined(entry: Path) -> str:
     """A module and all that it imports, directly or through others, as one script.
 
     Parameters
@@ -46,7 +47,7 @@ def joined(entry):
         If a statement is not understood, modules import each other in a circle, or a
         file or export that is imported does not exist.
     """
-    modules = {}
+    modules: dict[str, Module] = {}
     _collect(Module(Path(entry)), modules, ())
     faults = [fault for module in modules.values() for fault in module.faults(modules)]
     if faults:
@@ -54,12 +55,12 @@ def joined(entry):
     return "\n".join(module.as_function() for module in modules.values())
 
 
-def constant(file):
+def constant(file: Path | str) -> str:
     """Name of the constant with the exports of a module: ``"$view"`` for ``view.js``."""
     return "$" + Path(file).stem.replace("-", "_")
 
 
-def _collect(module, modules, importing):
+def _collect(module: "Module", modules: dict[str, "Module"], importing: tuple[str, ...]) -> None:
     """Add a module to those by file name, after all that it imports."""
     for place in module.imports:
         file = module.path.with_name(place[2])
@@ -80,26 +81,26 @@ class Module:
     path: Path
 
     @cached_property
-    def text(self):
+    def text(self) -> str:
         """The source."""
         return self.path.read_text(encoding="utf-8")
 
     @cached_property
-    def imports(self):
+    def imports(self) -> list[re.Match[str]]:
         """Matches of the imports: names in group 1, the file in group 2."""
         return list(IMPORT.finditer(self.text))
 
     @cached_property
-    def exports(self):
+    def exports(self) -> list[str]:
         """Names of the exports."""
         return EXPORT.findall(self.text)
 
-    def at(self, position):
+    def at(self, position: int) -> str:
         """File and line of a position in the text, as the start of a message."""
         line = 1 + self.text[:position].count("\n")
         return f"{self.path.name}:{line}: "
 
-    def faults(self, modules):
+    def faults(self, modules: dict[str, "Module"]) -> Iterator[str]:
         """What keeps the module from being joined with these others, as messages."""
         known = {place.start() for pattern in (IMPORT, EXPORT) for place in pattern.finditer(self.text)}
         for place in OTHER.finditer(self.text):
@@ -112,13 +113,13 @@ class Module:
                 elif name not in modules[place[2]].exports:
                     yield f"{self.at(place.start())}{place[2]} does not export {name}"
 
-    def as_function(self):
+    def as_function(self) -> str:
         """The module as a constant with its exports."""
         text = IMPORT.sub(lambda place: f"const {{{place[1]}}} = {constant(place[2])};", self.text)
         text, exports = EXPORT.sub("", text), ", ".join(self.exports)
         return f"const {constant(self.path)} = (() => {{\n{text}return {{ {exports} }};\n}})();\n"
 
 
-def _names(place):
+def _names(place: re.Match[str]) -> list[str]:
     """The names that an import lists; a comma may stand behind the last one."""
     return [name.strip() for name in place[1].strip().removesuffix(",").split(",")]

@@ -1,6 +1,7 @@
 """What an explorer shows: a start mesh and what becomes of it, without widgets or pictures."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -10,11 +11,11 @@ from ..criteria.criterion import Criterion
 from ..interpolation.interpolant import Interpolant
 from ..mesh.mesh import Mesh
 from ..mesh.quality import Quality, quality
+from ..swapping.procedure import TRACE
 
 GRID = 101  # points along each side of the grid on which the thesis measures errors
 MEASURES = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
 UNITS = {"maximum_angle": " (°)"}
-NO_TRACE = ()
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class Scene:
     function: Function
     start: Mesh
     film: tuple[Mesh, ...]
-    trace: np.ndarray | tuple[()] = NO_TRACE
+    trace: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=TRACE))
     swaps: int = 0
     cost: str | Criterion = "jnd"
     norm: Norm = 2
@@ -84,15 +85,13 @@ class Scene:
         )
 
 
-def _swapped(mesh, swaps):
-    """The mesh after each of some swaps, rows of a trace.
-
-         b                  b
-       / | \\              /   \\
-      c  |  d    -->     c --- d
-       \\ | /              \\   /
-         a                  a
-    """
+#       b                  b
+#     / | \              /   \
+#    c  |  d    -->     c --- d
+#     \ | /              \   /
+#       a                  a
+def _swapped(mesh: Mesh, swaps: np.ndarray) -> Iterator[Mesh]:
+    """The mesh after each of some swaps, which are rows of a trace."""
     elements = mesh.elements.copy()
     for a, b, c, d in swaps[["a", "b", "c", "d"]].tolist():
         at_edge = np.isin(elements, (a, b)).sum(axis=1) == 2
@@ -129,7 +128,7 @@ class Stage:
     @cached_property
     def l2_error(self) -> float:
         """L2 norm of the error, by the trapezium rule on that grid."""
-        x, y = np.linspace(*self.mesh.box, GRID).T
+        x, y = _grid(self.mesh)
         # As Interpolant.l2_error, which would search the grid points a second time.
         return float(np.sqrt(np.trapezoid(np.trapezoid(self.error**2, x, axis=1), y)))
 
@@ -159,7 +158,7 @@ def column(stage: Stage) -> dict[str, str]:
     return {label: _text(label, number) for label, number in numbers(stage).items()}
 
 
-def _text(label, number):
+def _text(label: str, number: float) -> str:
     if label.endswith("error"):
         return significant(number)
     return str(number) if isinstance(number, int) else f"{number:.{1 if '(°)' in label else 3}f}"
@@ -172,5 +171,11 @@ def significant(error: float) -> str:
 
 def truth(function: Function, mesh: Mesh) -> FloatArray:
     """(101, 101) float64: the function on the grid of the errors, a row for each y."""
-    x, y = np.linspace(*mesh.box, GRID).T
+    x, y = _grid(mesh)
     return np.broadcast_to(function(x[None, :], y[:, None]), (GRID, GRID))
+
+
+def _grid(mesh: Mesh) -> FloatArray:
+    """(2, 101) float64: x of the columns and y of the rows of the grid over a mesh."""
+    low, high = mesh.box
+    return np.linspace(low, high, GRID).T

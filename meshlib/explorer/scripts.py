@@ -8,16 +8,16 @@ HERE = Path(__file__).parent
 WIDGET, PAGE = (HERE / "js" / name for name in ("widget.js", "page.js"))
 
 
-def module():
+def module() -> str:
     """The ES module of the widget, whose hooks anywidget expects as the default export."""
     return f"{joined(WIDGET)}export default {constant(WIDGET)};\n"
 
 
-def classic():
+def classic() -> str:
     """The script of a page, which unlike a module a browser also loads from a file."""
     return f'(() => {{\n"use strict";\n{joined(PAGE)}}})();\n'
 
 
-def styles():
+def styles() -> str:
     """The style sheet of both."""
     return (HERE / "view.css").read_text(encoding="utf-8")

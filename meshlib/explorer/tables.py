@@ -4,13 +4,15 @@ Meshes of an atlas have most of their nodes and elements in common, so these are
 once, and a mesh is the list of the numbers of its elements.
 """
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Sized
+from typing import Any
 
 import numpy as np
 
 from .._typing import IntArray
 from ..criteria.norms import checked
 from ..criteria.registry import get
+from ..mesh.mesh import Mesh
 from .cost_changes import CHANGE, LOCAL_COSTS, changes, has_formula
 from .scene import Scene, truth
 
@@ -22,10 +24,17 @@ class Tables:
     """Points, elements, meshes and scenes, each numbered in the order of first use."""
 
     def __init__(self) -> None:
-        self.captions: list[dict] = []
-        self._points, self._elements, self._meshes, self._truths = {}, {}, {}, {}
-        self._films, self._tried, self._changes, self._local_costs = [], [], [], []
-        self._columns = {name: [] for name in ("truth", "start", "swaps")}
+        self.captions: list[dict[str, Any]] = []
+        self._points: dict[tuple[float, ...], int] = {}
+        self._elements: dict[tuple[int, ...], int] = {}
+        self._meshes: dict[tuple[int, ...], int] = {}
+        self._truths: dict[tuple[Any, ...], tuple[int, Scene]] = {}
+        self._columns: dict[str, list[int]] = {"truth": [], "start": [], "swaps": []}
+        # a row for each scene
+        self._films: list[list[int]] = []
+        self._tried: list[Any] = []
+        self._changes: list[list[tuple[int | float, ...]]] = []
+        self._local_costs: list[Any] = []
 
     def add(self, scene: Scene) -> None:
         """Take in a scene."""
@@ -37,7 +46,7 @@ class Tables:
         self._tried.append(_tried(scene, points))
         self._add_costs(scene)
 
-    def _add_costs(self, scene):
+    def _add_costs(self, scene: Scene) -> None:
         """The caption of a scene, and costs that the scripts cannot compute."""
         criterion = get(scene.cost)
         caption = {"title": scene.title, "cost": criterion.name, "on": criterion.on}
@@ -50,17 +59,17 @@ class Tables:
         self._changes.append(changes(scene, criterion, lambda mesh: self._point_numbers(scene, mesh)))
         self._local_costs.append(scene.trace)
 
-    def _truth_number(self, scene):
+    def _truth_number(self, scene: Scene) -> int:
         name = getattr(scene.function, "name", None) or id(scene.function)
         box = tuple(np.ravel(scene.start.box).tolist())
         return self._truths.setdefault((name, box), (len(self._truths), scene))[0]
 
-    def _point_numbers(self, scene, mesh):
+    def _point_numbers(self, scene: Scene, mesh: Mesh) -> IntArray:
         values = scene.function(*mesh.nodes.T)
         rows = np.column_stack([mesh.nodes, values]).tolist()
         return np.array([self._points.setdefault(tuple(row), len(self._points)) for row in rows])
 
-    def _mesh_number(self, scene, mesh):
+    def _mesh_number(self, scene: Scene, mesh: Mesh) -> int:
         corners = self._point_numbers(scene, mesh)[mesh.elements]
         turn = corners.argmin(axis=1)[:, None]  # counter-clockwise from the smallest
         corners = np.take_along_axis(corners, (turn + np.arange(3)) % 3, axis=1)
@@ -91,7 +100,7 @@ class Tables:
             | self._given_costs()
         )
 
-    def _given_costs(self):
+    def _given_costs(self) -> dict[str, np.ndarray]:
         """Tables of the costs that the scripts cannot compute; none if they can compute all."""
         if not any("given" in caption for caption in self.captions):
             return {}
@@ -99,24 +108,24 @@ class Tables:
         local = [[row[name] for rows in self._local_costs for row in rows] for name in LOCAL_COSTS]
         return (
             {"changes": _starts(self._changes), "tries": _starts(self._local_costs)}
-            | {name: rows[name] for name in CHANGE.names}
+            | {name: rows[name] for name in CHANGE.fields or ()}
             | {name: np.array(costs, dtype=float) for name, costs in zip(LOCAL_COSTS, local, strict=True)}
         )
 
 
-def _tried(scene, points):
+def _tried(scene: Scene, points: IntArray) -> Any:
     """The columns of the trace, with numbers of points in place of those of nodes."""
     if not len(scene.trace):
         return NOTHING_TRIED
     return [points[scene.trace[field]] if field in "abcd" else scene.trace[field] for field in TRIED]
 
 
-def _starts(rows: Sequence) -> IntArray:
+def _starts(rows: Sequence[Sized]) -> IntArray:
     """Where each row begins once they are joined, and where the last one ends."""
     return np.concatenate([[0], np.cumsum([len(row) for row in rows])])
 
 
-def _steps(numbers):
-    """Differences, which are small and repeat themselves: 0, -1, 1, -2, ... as 0, 1, 2, 3, ..."""
+def _steps(numbers: Sequence[int]) -> IntArray:
+    """Differences of the numbers, 0, -1, 1, -2, ... as 0, 1, 2, 3, ...: they are small and often equal."""
     steps = np.diff(numbers, prepend=0)
     return np.where(steps < 0, -2 * steps - 1, 2 * steps)
