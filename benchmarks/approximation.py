@@ -3,20 +3,21 @@
 Prints a JSON list with a line for each mesh.  Ours and the peers take turns, so that
 they meet the same machine.
 """
+
 import json
 import sys
 import time
 
 import numpy as np
-
-from meshlib import MeshError, approximate, problems
-from meshlib.interpolant import squared_errors
-from meshlib.thesis import limit
-from meshlib.thesis.studies import quartered
 from remeshing import STEP, delatin, mmg2d
 
+from meshlib import MeshError, approximate, problems
+from meshlib.interpolation.interpolant import squared_errors
+from meshlib.thesis.studies import section_7_7a_limit as limit
+from meshlib.thesis.studies.appendix_b import quartered
+
 SEEDS = range(3)
-FLOORS = tuple(10.0 ** -k for k in range(1, 7))  # of eigenvalues, tried one after the other
+FLOORS = tuple(10.0**-k for k in range(1, 7))  # of eigenvalues, tried one after the other
 STEPS = {"DD1": (3e-3, 1e-2)}  # of differences: shorter ones hardly see its kinks
 NEIGHBOURS, TRY_ALL = 1, 1600  # for more nodes than that only the best floor and those beside it
 MOST_BY_MAX = 6400  # nodes of meshes made for the largest error, which take several times as long
@@ -39,17 +40,25 @@ def mixture(x, y):
     return hill + 20 * s * t * np.exp(-20 * (s * s + t * t)) + 1e-3 * (x * x + y * y)
 
 
-FUNCTIONS = limit.FUNCTIONS | limit.DIRECTED | {
-    "x² + y²": problems.functions["convex"], "x² − y²": problems.functions["hyperbolic"],
-    "arc": arc, "mixture": mixture}
+FUNCTIONS = (
+    limit.FUNCTIONS
+    | limit.DIRECTED
+    | {
+        "x² + y²": problems.functions["convex"],
+        "x² − y²": problems.functions["hyperbolic"],
+        "arc": arc,
+        "mixture": mixture,
+    }
+)
 
 
 def bounds():
     """The constant B of every function that has one, and K of the others."""
     curved = [name for name in FUNCTIONS if name not in limit.DIRECTED]
-    return {"B": {name: limit.constant(FUNCTIONS[name], limit.BOXES.get(name, limit.SQUARE))
-                  for name in curved},
-            "K": {name: limit.strip_constant(u) for name, u in limit.DIRECTED.items()}}
+    return {
+        "B": {name: limit.constant(FUNCTIONS[name], limit.BOXES.get(name, limit.SQUARE)) for name in curved},
+        "K": {name: limit.strip_constant(u) for name, u in limit.DIRECTED.items()},
+    }
 
 
 # -- errors --------------------------------------------------------------------------------------
@@ -73,11 +82,12 @@ def confirmed(mesh, function):
 def largest(mesh, function):
     """The largest error at a lattice of points in every element."""
     side = int(np.clip(np.sqrt(2 * POINTS / mesh.n_elements), FEWEST, MOST))
-    i, j = (k.ravel() for k in np.mgrid[:side + 1, :side + 1])
+    i, j = (k.ravel() for k in np.mgrid[: side + 1, : side + 1])
     weights = np.column_stack([i, j, side - i - j])[i + j <= side] / side
     values, found = function(*mesh.nodes.T)[mesh.elements], 0.0
-    for corners, three in zip(*(np.array_split(a, 1 + len(weights) * len(a) // POINTS)
-                                for a in (mesh.corners, values)), strict=True):
+    for corners, three in zip(
+        *(np.array_split(a, 1 + len(weights) * len(a) // POINTS) for a in (mesh.corners, values)), strict=True
+    ):
         x, y = np.moveaxis(weights @ corners, -1, 0)
         found = max(found, float(np.abs(function(x, y) - three @ weights.T).max()))
     return found
@@ -89,8 +99,13 @@ def largest(mesh, function):
 def line(name, who, nodes, mesh, seconds, **more):
     """What is kept of a mesh."""
     numbers = {"error": confirmed(mesh, FUNCTIONS[name]), "seconds": seconds} | more
-    return {"function": name, "who": who, "nodes": nodes, "found": mesh.n_nodes,
-            "elements": mesh.n_elements} | {key: _rounded(value) for key, value in numbers.items()}
+    return {
+        "function": name,
+        "who": who,
+        "nodes": nodes,
+        "found": mesh.n_nodes,
+        "elements": mesh.n_elements,
+    } | {key: _rounded(value) for key, value in numbers.items()}
 
 
 def _rounded(value):
@@ -108,8 +123,17 @@ def ours(name, nodes):
     """Our mesh for every seed."""
     for seed in SEEDS:
         found, seconds = timed(approximate, FUNCTIONS[name], nodes, seed=seed)
-        yield line(name, "ours", nodes, found.mesh, seconds, seed=seed, claimed=found.error,
-                   largest=largest(found.mesh, FUNCTIONS[name]), valid=_valid(found.mesh))
+        yield line(
+            name,
+            "ours",
+            nodes,
+            found.mesh,
+            seconds,
+            seed=seed,
+            claimed=found.error,
+            largest=largest(found.mesh, FUNCTIONS[name]),
+            valid=_valid(found.mesh),
+        )
 
 
 def _valid(mesh):
@@ -148,29 +172,33 @@ def floors_for(nodes, before):
         return FLOORS
     last = [row for row in before if row["nodes"] == before[-1]["nodes"]]
     best = FLOORS.index(min(last, key=lambda row: row["error"] * row["found"])["floor"])
-    return FLOORS[max(best - NEIGHBOURS, 0):best + NEIGHBOURS + 1]
+    return FLOORS[max(best - NEIGHBOURS, 0) : best + NEIGHBOURS + 1]
 
 
 def by_tolerance(name):
     """Nodes that a tolerance takes, and the least number that bisection over the nodes finds."""
     u = FUNCTIONS[name]
-    tolerance = approximate(u, TOLERANCE_NODES).error
+    tolerance = approximate(u, nodes=TOLERANCE_NODES).error
     found, seconds = timed(approximate, u, tolerance=tolerance)
     low, high = TOLERANCE_NODES // 2, TOLERANCE_NODES
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (low, middle) if approximate(u, middle).error <= tolerance else (middle, high)
+        low, high = (low, middle) if approximate(u, nodes=middle).error <= tolerance else (middle, high)
     yield line(name, "tolerance", TOLERANCE_NODES, found.mesh, seconds, tolerance=tolerance, bisected=high)
 
 
 def measured(name, sizes):
     """All lines of one function."""
-    approximate(FUNCTIONS[name], WARM)
+    approximate(FUNCTIONS[name], nodes=WARM)
     lines = list(by_tolerance(name)) if TOLERANCE_NODES in sizes else []
     for nodes in sizes:
         before = [row for row in lines if row["who"] == "mmg2d"]
-        for rows in (ours(name, nodes), remeshed(name, nodes, floors_for(nodes, before)),
-                     greedy(name, nodes), ours_by_max(name, nodes)):
+        for rows in (
+            ours(name, nodes),
+            remeshed(name, nodes, floors_for(nodes, before)),
+            greedy(name, nodes),
+            ours_by_max(name, nodes),
+        ):
             lines += rows
     return lines
 

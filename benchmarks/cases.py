@@ -1,4 +1,5 @@
 """Nodes to measure on: random, in clusters, and on a lattice full of ties."""
+
 import numpy as np
 
 import meshlib as ml
@@ -22,7 +23,7 @@ def clustered(n, rng):
 
 def gridded(n, rng):
     """A square lattice of about n nodes: the four nodes of each cell lie on a circle."""
-    side = np.linspace(0, 1, round(n ** 0.5))
+    side = np.linspace(0, 1, round(n**0.5))
     return np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
 
 

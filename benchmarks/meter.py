@@ -1,4 +1,5 @@
 """Time and memory of calls, in a process of their own: ``python meter.py quality random 10000 5``."""
+
 import gc
 import json
 import sys
@@ -7,6 +8,7 @@ from pathlib import Path
 
 from cases import Case
 from measures import MEASURES
+
 from meshlib.kernels import backend  # noqa: F401 (once it is loaded, small cases are compiled too)
 
 STATUS, RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")  # of Linux
@@ -52,8 +54,10 @@ def measured(measure, kind, n, runs):
     added = [memory(call) for _, _, call in calls]
     times = [[seconds(call) for _, _, call in calls] for _ in range(runs)]
     case = {"measure": measure, "kind": kind, "nodes": n}
-    return [case | {"who": who, "name": name, "memory": most, "times": list(row)}
-            for (who, name, _), most, row in zip(calls, added, zip(*times, strict=True), strict=True)]
+    return [
+        case | {"who": who, "name": name, "memory": most, "times": list(row)}
+        for (who, name, _), most, row in zip(calls, added, zip(*times, strict=True), strict=True)
+    ]
 
 
 if __name__ == "__main__":

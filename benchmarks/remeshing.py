@@ -1,8 +1,9 @@
 """Peers of `meshlib.approximate`: MMG's two-dimensional remesher led by a metric, and pydelatin."""
+
 import numpy as np
 
 from meshlib import Mesh
-from meshlib.thesis.limit import hessians, lattice
+from meshlib.thesis.studies.section_7_7a_limit import hessians, lattice
 
 PASSES = 10  # of remeshing, each on the mesh of the one before
 STEP = 1e-4  # of differences for second derivatives
@@ -20,7 +21,7 @@ def metrics(function, nodes, floor, step, scale):
     size = np.abs(size)
     size = np.maximum(size, floor * size.max())
     size = size * scale * size.prod(axis=1, keepdims=True) ** (-1 / 6)
-    size = size.clip(LONGEST ** -2, SHORTEST ** -2)
+    size = size.clip(LONGEST**-2, SHORTEST**-2)
     full = np.einsum("nij,nj,nkj->nik", axes, size, axes)
     return np.ascontiguousarray(full[:, [0, 0, 1], [0, 1, 1]])
 
@@ -28,6 +29,7 @@ def metrics(function, nodes, floor, step, scale):
 def mmg2d(function, n_nodes, floor, step=STEP, passes=PASSES):
     """The mesh of about so many nodes that MMG makes; the metric is scaled by what each pass gives."""
     import mmgpy
+
     mesh, scale = lattice(START), float(n_nodes)
     for _ in range(passes):
         work = mmgpy.MmgMesh2D(mesh.nodes, mesh.elements)
@@ -41,6 +43,7 @@ def mmg2d(function, n_nodes, floor, step=STEP, passes=PASSES):
 def delatin(function, n_nodes):
     """The greedy Delaunay mesh of pydelatin on a raster of samples, scaled to the unit square."""
     import pydelatin
+
     ticks = np.linspace(0, 1, RASTER)
     samples = function(*np.meshgrid(ticks, ticks)).astype(np.float32)
     found = pydelatin.Delatin(samples, max_error=0, max_points=n_nodes)

@@ -1,4 +1,5 @@
 """The results file as the tables and pictures of the page "Performance"."""
+
 import json
 from functools import cache
 from math import nan
@@ -6,8 +7,9 @@ from pathlib import Path
 from statistics import median
 
 from cases import KINDS
+
 from meshlib import plotting
-from meshlib.thesis.tables import grid, markdown
+from meshlib.thesis.tables.numbered import grid, markdown
 
 RESULTS = Path(__file__).with_name("results.json")
 MILLION = 1_000_000
@@ -15,21 +17,44 @@ MARKERS, COLOURS = "osv^D", [plotting.PALETTE[c] for c in ("blue", "green", "sky
 PANEL = 3.1  # inches
 # A goal: text, of which measure, nodes, what is divided by what ("ours" or a peer), and the limit.
 GOALS = (
-    *((f"adjacency and swapping with {name} / Delaunay", "swapping", MILLION, name, "SciPy Delaunay", "<=",
-       goal) for name, goal in (("JND-L2", 0.10), ("ABN-L1", 0.20), ("ABN-L2", 0.20))),
-    *(("matplotlib / values on a grid", "grid", n, "matplotlib", "on_grid", ">=", goal)
-      for n, goal in ((10_000, 35), (100_000, 90), (MILLION, 300))),
+    *(
+        (
+            f"adjacency and swapping with {name} / Delaunay",
+            "swapping",
+            MILLION,
+            name,
+            "SciPy Delaunay",
+            "<=",
+            goal,
+        )
+        for name, goal in (("JND-L2", 0.10), ("ABN-L1", 0.20), ("ABN-L2", 0.20))
+    ),
+    *(
+        ("matplotlib / values on a grid", "grid", n, "matplotlib", "on_grid", ">=", goal)
+        for n, goal in ((10_000, 35), (100_000, 90), (MILLION, 300))
+    ),
     ("SciPy / values at scattered points", "scattered", MILLION, "SciPy LinearND", "Interpolant", ">=", 5),
     ("scikit-fem / red-green refinement", "refinement", MILLION, "scikit-fem", "red-green", ">=", 3),
-    *((f"{peer} / quality", "quality", MILLION, peer, "three measures", ">=", 1)
-      for peer in ("VTK", "matplotlib")),
+    *(
+        (f"{peer} / quality", "quality", MILLION, peer, "three measures", ">=", 1)
+        for peer in ("VTK", "matplotlib")
+    ),
 )
-GROWTH = (("swapping", "JND-L2"), ("refinement", "red-green"), ("grid", "on_grid"),
-          ("scattered", "Interpolant"), ("quality", "three measures"))
+GROWTH = (
+    ("swapping", "JND-L2"),
+    ("refinement", "red-green"),
+    ("grid", "on_grid"),
+    ("scattered", "Interpolant"),
+    ("quality", "three measures"),
+)
 MOST_GROWTH = 13
 SIGNS = {"<=": "≤", ">=": "≥"}
-STARTS = {"import meshlib": 0.25, "first swapping, 81 nodes": 0.2, "without numba, 33 nodes": 0.006,
-          "without numba, 81 nodes": 0.006}
+STARTS = {
+    "import meshlib": 0.25,
+    "first swapping, 81 nodes": 0.2,
+    "without numba, 33 nodes": 0.006,
+    "without numba, 81 nodes": 0.006,
+}
 
 
 @cache
@@ -55,27 +80,33 @@ def machine():
 def sentence(about):
     """When, on what and with what something was measured."""
     versions = ", ".join(f"{name} {number}" for name, number in about["versions"].items())
-    return (f"Measured on {about['date']} on {about['cores']} cores of {about['processor']} "
-            f"({about['system']}, {about['machine']}), Python {about['python']}, {versions}.")
+    return (
+        f"Measured on {about['date']} on {about['cores']} cores of {about['processor']} "
+        f"({about['system']}, {about['machine']}), Python {about['python']}, {versions}."
+    )
 
 
 def short_answer():
     """What swapping costs, beside the mesh that it starts from."""
     ours, peer = _of_random("swapping", "JND-L2"), _of_random("swapping", "SciPy Delaunay")
-    return markdown("The short answer: swapping edges until the mesh of a million nodes is locally optimal "
-                    f"takes {ours / peer:.0%} of the time in which its Delaunay triangulation was built.")
+    return markdown(
+        "The short answer: swapping edges until the mesh of a million nodes is locally optimal "
+        f"takes {ours / peer:.0%} of the time in which its Delaunay triangulation was built."
+    )
 
 
 def grid_short():
     """Why a grid on many nodes falls short."""
-    given, placed, numbering = (_of_random("numbering", name)
-                                for name in ("grid as given", "grid along the curve", "along_curve"))
+    given, placed, numbering = (
+        _of_random("numbering", name) for name in ("grid as given", "grid along the curve", "along_curve")
+    )
     return markdown(
         "*A grid on a million nodes.* Elements and nodes of a random mesh are stored in an order that has "
         "nothing to do with their places, so each of the six million look-ups of a corner waits for memory, "
         "and so does each write to the grid. On the same mesh numbered by place it takes "
         f"{placed / given:.0%} of the time; numbering takes {numbering / (given - placed):.1f} times what "
-        "it saves.")
+        "it saves."
+    )
 
 
 def growth_short():
@@ -85,7 +116,8 @@ def growth_short():
         "*Growth.* For the same reason ten times the nodes take more than ten times as long, "
         f"{', '.join(f'{measure} {growth:.1f}' for growth, measure in times)}: a hundred thousand nodes fit "
         "into the second level of the cache, a million do not, and every large array is new memory that the "
-        "system has to provide page by page.")
+        "system has to provide page by page."
+    )
 
 
 def _growth(measure, name):
@@ -111,13 +143,19 @@ def _ratios():
 
 def _growths():
     for measure, name in GROWTH:
-        yield _row(f"growth of {measure} ({name}), time at ten times the nodes / time", MILLION, "<=",
-                   MOST_GROWTH, _growth(measure, name))
+        yield _row(
+            f"growth of {measure} ({name}), time at ten times the nodes / time",
+            MILLION,
+            "<=",
+            MOST_GROWTH,
+            _growth(measure, name),
+        )
 
 
 def _memory():
-    ours, peer = (found("swapping", "random", MILLION, name, "memory")
-                  for name in ("JND-L2", "SciPy Delaunay"))
+    ours, peer = (
+        found("swapping", "random", MILLION, name, "memory") for name in ("JND-L2", "SciPy Delaunay")
+    )
     yield _row("peak memory of swapping / of Delaunay", MILLION, "<=", 1, ours and peer and ours / peer)
 
 
@@ -146,8 +184,12 @@ def _count(nodes):
 def starting():
     """Times of new processes."""
     lines = [line for line in results()["results"] if line["measure"] == "starting"]
-    return markdown(grid(("In a new process", "Seconds"), [(line["name"], f"{median(line['times']):.3g}")
-                                                           for line in lines]))
+    return markdown(
+        grid(
+            ("In a new process", "Seconds"),
+            [(line["name"], f"{median(line['times']):.3g}") for line in lines],
+        )
+    )
 
 
 def everything():
@@ -174,9 +216,15 @@ def picture(*measures):
     """Time against the number of nodes, a row of panels for each measure, a panel for each kind of nodes."""
     pyplot = plotting.look.pyplot()
     with plotting.style():
-        figure, rows = pyplot.subplots(len(measures), len(KINDS), layout="constrained", squeeze=False,
-                                       sharex=True, sharey="row",
-                                       figsize=(plotting.WIDTH, PANEL * len(measures)))
+        figure, rows = pyplot.subplots(
+            len(measures),
+            len(KINDS),
+            layout="constrained",
+            squeeze=False,
+            sharex=True,
+            sharey="row",
+            figsize=(plotting.WIDTH, PANEL * len(measures)),
+        )
         for measure, row in zip(measures, rows, strict=True):
             for kind, ax in zip(KINDS, row, strict=True):
                 _curves(ax, measure, kind)
@@ -196,8 +244,15 @@ def _curves(ax, measure, kind):
         own = [line for line in lines if line["name"] == name]
         nodes, times = [line["nodes"] for line in own], [median(line["times"]) for line in own]
         peer = own[0]["who"] == "peer"
-        ax.plot(nodes, times, marker=marker, markersize=5, label=name, linestyle="--" if peer else "-",
-                color=plotting.ACCENT if peer else colour)
+        ax.plot(
+            nodes,
+            times,
+            marker=marker,
+            markersize=5,
+            label=name,
+            linestyle="--" if peer else "-",
+            color=plotting.ACCENT if peer else colour,
+        )
     ax.set(xscale="log", yscale="log")
     ax.spines[["top", "right"]].set_visible(False)
     ax.grid(True, color=plotting.look.FAINT, linewidth=0.5)

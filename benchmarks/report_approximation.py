@@ -1,10 +1,12 @@
 """Meshes made for functions, as the tables and pictures of the page "Performance"."""
+
 from statistics import median
 
-from meshlib import plotting
-from meshlib.thesis.limit import ZIGZAG
-from meshlib.thesis.tables import grid, markdown
 from report import results, sentence, verdict
+
+from meshlib import plotting
+from meshlib.thesis.studies.section_7_7a_limit import ZIGZAG
+from meshlib.thesis.tables.numbered import grid, markdown
 
 RATES = {"B": 1, "K": 2}  # of the error in the number of nodes, by the constant of a function
 EQUAL = "x² + y²", "x² − y²"  # curved alike everywhere
@@ -49,7 +51,7 @@ def over_strips(name, nodes):
     """Error over that of parallel strips, of the worst seed."""
     constant, rows = part()["K"].get(name), lines(name, "ours", nodes)
     strips = (nodes - 2) / 2
-    return max(row["error"] for row in rows) * strips ** 2 / constant if constant and rows else None
+    return max(row["error"] for row in rows) * strips**2 / constant if constant and rows else None
 
 
 def our(name, nodes, field="error"):
@@ -121,8 +123,14 @@ STEEP = "Franke", "ring", "SR3"
 # A goal: what is measured, on which functions (None: all) for how many nodes (None: all), and the limit.
 GOALS = (
     ("error · elements / limit", efficiency, ("Franke", "ring", "DD1", "SR3"), (LARGE,), "<=", NEAR),
-    ("the same on a front that leaves the domain, and on a mixture", efficiency, ("arc", "mixture"), (1600,),
-     "<=", FRONT),
+    (
+        "the same on a front that leaves the domain, and on a mixture",
+        efficiency,
+        ("arc", "mixture"),
+        (1600,),
+        "<=",
+        FRONT,
+    ),
     ("error / error of parallel strips", over_strips, None, None, "<=", 1),
     ("$L_2$ error of MMG / ours, steep or smooth", mmg_error, STEEP, None, ">=", 1.25),
     ("$L_2$ error of MMG / ours, anywhere", mmg_error, None, None, ">=", 1),
@@ -138,8 +146,12 @@ GOALS = (
 
 def worst(measure, functions, nodes, sign):
     """The worst value among functions and numbers of nodes, and where; None if none was measured."""
-    found = [(value, name, n) for name in functions or names() for n in nodes or sizes()
-             if (value := measure(name, n)) is not None]
+    found = [
+        (value, name, n)
+        for name in functions or names()
+        for n in nodes or sizes()
+        if (value := measure(name, n)) is not None
+    ]
     return (max if sign == "<=" else min)(found, default=None)
 
 
@@ -161,14 +173,28 @@ def goals():
     return markdown(grid(("Measure", "Worst: function, nodes", "Goal", "Measured", ""), rows))
 
 
-TABLE = {"error · elements / limit": efficiency, "error / strips": over_strips, "MMG / ours": mmg_error,
-         "our time / MMG's": mmg_time, "pydelatin / ours": greedy_error, "largest error": greedy_largest}
+TABLE = {
+    "error · elements / limit": efficiency,
+    "error / strips": over_strips,
+    "MMG / ours": mmg_error,
+    "our time / MMG's": mmg_time,
+    "pydelatin / ours": greedy_error,
+    "largest error": greedy_largest,
+}
 
 
 def everything():
     """All of it, a row for each function and number of nodes."""
-    rows = [(name, f"{nodes:,}", *(_cell(measure(name, nodes)) for measure in TABLE.values()),
-             f"{our(name, nodes, 'seconds'):.3g}") for name in names() for nodes in sizes()]
+    rows = [
+        (
+            name,
+            f"{nodes:,}",
+            *(_cell(measure(name, nodes)) for measure in TABLE.values()),
+            f"{our(name, nodes, 'seconds'):.3g}",
+        )
+        for name in names()
+        for nodes in sizes()
+    ]
     return markdown(grid(("Function", "Nodes", *TABLE, "seconds"), rows))
 
 
@@ -181,9 +207,15 @@ def picture():
     pyplot, shown = plotting.look.pyplot(), names()
     rows = -(-len(shown) // COLUMNS)
     with plotting.style():
-        figure, axes = pyplot.subplots(rows, COLUMNS, layout="constrained", squeeze=False, sharex=True,
-                                       figsize=(plotting.WIDTH, PANEL[1] * rows))
-        for ax in axes.flat[len(shown):]:
+        figure, axes = pyplot.subplots(
+            rows,
+            COLUMNS,
+            layout="constrained",
+            squeeze=False,
+            sharex=True,
+            figsize=(plotting.WIDTH, PANEL[1] * rows),
+        )
+        for ax in axes.flat[len(shown) :]:
             ax.set_visible(False)
         for ax, name in zip(axes.flat, shown, strict=False):
             _curves(ax, name)
@@ -199,8 +231,14 @@ def _curves(ax, name):
     for who, (marker, colour, dashes) in WHO.items():
         found = {n: _error(name, who, n) for n in sizes()}
         points = [(n, error) for n, error in found.items() if error is not None]
-        ax.loglog(*zip(*points, strict=True), marker=marker, markersize=4, linestyle=dashes,
-                  color=plotting.PALETTE[colour], label=who)
+        ax.loglog(
+            *zip(*points, strict=True),
+            marker=marker,
+            markersize=4,
+            linestyle=dashes,
+            color=plotting.PALETTE[colour],
+            label=who,
+        )
     ax.loglog(sizes(), [least(name, n) for n in sizes()], color=plotting.FAINT, label="limit", zorder=0)
     ticks = sorted({sizes()[0], sizes()[len(sizes()) // 2], sizes()[-1]})
     ax.minorticks_off()
@@ -243,16 +281,20 @@ def _bound_of_greedy(name, nodes):
     row = lines(name, "pydelatin", nodes)[0]
     possible = row["error"] * row["elements"] / part()["B"][name]
     alike = " The function is curved alike everywhere, and little can be adapted." if name in EQUAL else ""
-    return (f"The mesh of pydelatin is {possible:.2f} times above the limit there; no mesh could make the "
-            f"ratio much larger.{alike}")
+    return (
+        f"The mesh of pydelatin is {possible:.2f} times above the limit there; no mesh could make the "
+        f"ratio much larger.{alike}"
+    )
 
 
 def _near_limit(name, nodes):
     """What the theorem does not say about so many nodes."""
     values = [efficiency(other, nodes) for other in names()]
     near = [value is not None and value <= NEAR for value in values]
-    return (f"The limit is one for many elements; at {nodes:,} nodes {sum(near)} of "
-            f"{len(part()['B'])} functions are within {NEAR - 1:.0%} of it.")
+    return (
+        f"The limit is one for many elements; at {nodes:,} nodes {sum(near)} of "
+        f"{len(part()['B'])} functions are within {NEAR - 1:.0%} of it."
+    )
 
 
 def _already_near(name, nodes):
@@ -260,15 +302,19 @@ def _already_near(name, nodes):
     if name not in part()["B"]:
         return ""
     row = best_remeshed(name, nodes)
-    return (f"MMG comes within {row['error'] * row['elements'] / part()['B'][name]:.2f} times the limit "
-            f"there, ours within {efficiency(name, nodes):.2f}.")
+    return (
+        f"MMG comes within {row['error'] * row['elements'] / part()['B'][name]:.2f} times the limit "
+        f"there, ours within {efficiency(name, nodes):.2f}."
+    )
 
 
 def _largest(name, nodes):
     """The errors themselves, also of our meshes for the mean square."""
     peer, own = (lines(name, who, nodes)[0]["largest"] for who in ("pydelatin", "ours, max"))
-    return (f"The errors are {peer:.3g} and {own:.3g}; meshes made for the $L_2$ error have "
-            f"{our(name, nodes, 'largest'):.3g}.")
+    return (
+        f"The errors are {peer:.3g} and {own:.3g}; meshes made for the $L_2$ error have "
+        f"{our(name, nodes, 'largest'):.3g}."
+    )
 
 
 def _seconds(name, nodes):
@@ -276,5 +322,11 @@ def _seconds(name, nodes):
     return f"It takes {our(name, nodes, 'seconds'):.3g} s."
 
 
-REASONS = {efficiency: _near_limit, mmg_error: _already_near, mmg_time: _seconds, growth: _seconds,
-           greedy_error: _bound_of_greedy, greedy_largest: _largest}
+REASONS = {
+    efficiency: _near_limit,
+    mmg_error: _already_near,
+    mmg_time: _seconds,
+    growth: _seconds,
+    greedy_error: _bound_of_greedy,
+    greedy_largest: _largest,
+}

@@ -7,6 +7,7 @@ ours and the peers take turns.  Results are printed and, with ``--json``, writte
 together with the machine and the versions; the page "Performance" of the report shows that
 file.  Without ``--nodes`` or without ``--sizes`` the file keeps what it has of that part.
 """
+
 import argparse
 import json
 import os
@@ -24,22 +25,33 @@ from measures import MEASURES
 from starting import measured as started
 
 HERE = Path(__file__).parent
-PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "scikit-fem", "pyvista", "vtk",
-            "mmgpy", "pydelatin")
+PACKAGES = ("numpy", "scipy", "numba", "matplotlib", "scikit-fem", "pyvista", "vtk", "mmgpy", "pydelatin")
 
 
 def about():
     """The machine and the versions."""
-    return {"date": str(date.today()), "machine": platform.machine(),
-            "processor": _processor(), "cores": os.cpu_count(), "system": platform.system(),
-            "python": platform.python_version(),
-            "versions": {name: found for name in PACKAGES if (found := _version(name))}}
+    return {
+        "date": str(date.today()),
+        "machine": platform.machine(),
+        "processor": _processor(),
+        "cores": os.cpu_count(),
+        "system": platform.system(),
+        "python": platform.python_version(),
+        "versions": {name: found for name in PACKAGES if (found := _version(name))},
+    }
 
 
 def _processor():
     info = Path("/proc/cpuinfo")
-    names = [line.split(":")[1].strip() for line in info.read_text().splitlines()
-             if line.startswith("model name")] if info.exists() else []
+    names = (
+        [
+            line.split(":")[1].strip()
+            for line in info.read_text().splitlines()
+            if line.startswith("model name")
+        ]
+        if info.exists()
+        else []
+    )
     return names[0] if names else platform.processor()
 
 
@@ -59,8 +71,11 @@ def lines(measure, kind, n, runs):
 def show(line):
     """Print one result."""
     memory = "" if line["memory"] is None else f"{line['memory']:9.0f} MB"
-    print(f"{line['measure']:<11} {line['kind']:<10} {line['nodes']:>8} {line['who']:<5} {line['name']:<25} "
-          f"{statistics.median(line['times']):10.4f} s {memory}", flush=True)
+    print(
+        f"{line['measure']:<11} {line['kind']:<10} {line['nodes']:>8} {line['who']:<5} {line['name']:<25} "
+        f"{statistics.median(line['times']):10.4f} s {memory}",
+        flush=True,
+    )
 
 
 def timed(chosen):
@@ -85,23 +100,30 @@ def approximated(chosen):
         command = [sys.executable, HERE / "approximation.py", name, *map(str, chosen.sizes)]
         new = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout)
         for line in new:
-            print(f"{name:<9} {line['who']:<10} {line['nodes']:>6} {line['found']:>6} nodes  "
-                  f"error {line['error']:.4e} {line['seconds']:9.2f} s", flush=True)
+            print(
+                f"{name:<9} {line['who']:<10} {line['nodes']:>6} {line['found']:>6} nodes  "
+                f"error {line['error']:.4e} {line['seconds']:9.2f} s",
+                flush=True,
+            )
         found += new
     return {"approximate": about() | bounds() | {"lines": found}}
 
 
 def text(parts):
     """The results as JSON, a line for each entry of a list."""
+
     def value(found):
         if not isinstance(found, list):
             return json.dumps(found, ensure_ascii=False)
         return "[\n  " + ",\n  ".join(value(row) for row in found) + "\n ]"
 
     def entries(found, indent):
-        rows = (f'{indent}"{key}": ' + (entries(one, indent + " ") if key == "approximate" else value(one))
-                for key, one in found.items())
+        rows = (
+            f'{indent}"{key}": ' + (entries(one, indent + " ") if key == "approximate" else value(one))
+            for key, one in found.items()
+        )
         return "{\n" + ",\n".join(rows) + f"\n{indent[1:]}}}"
+
     return entries(parts, " ") + "\n"
 
 

@@ -1,4 +1,5 @@
 """Times that only a new process shows: import, first use, and runs without a compiler."""
+
 import subprocess
 import sys
 
@@ -36,16 +37,30 @@ from meshlib.kernels.lop import after
 after(1)
 print(time.perf_counter() - start)
 """
-SCRIPTS = {"import meshlib": IMPORT, "first swapping, 81 nodes": FIRST.format(mesh="81"),
-           "numba alone": FLOOR, "without numba, 33 nodes": PLAIN.format(mesh="33"),
-           "without numba, 81 nodes": PLAIN.format(mesh="81")}
+SCRIPTS = {
+    "import meshlib": IMPORT,
+    "first swapping, 81 nodes": FIRST.format(mesh="81"),
+    "numba alone": FLOOR,
+    "without numba, 33 nodes": PLAIN.format(mesh="33"),
+    "without numba, 81 nodes": PLAIN.format(mesh="81"),
+}
 
 
 def measured(runs):
     """Seconds of each, in turn; the first round fills the caches and does not count."""
     rounds = [[float(_output(script)) for script in SCRIPTS.values()] for _ in range(runs + 1)][1:]
-    return [{"measure": "starting", "kind": "", "nodes": 0, "who": "ours", "name": name, "memory": None,
-             "times": list(times)} for name, times in zip(SCRIPTS, zip(*rounds, strict=True), strict=True)]
+    return [
+        {
+            "measure": "starting",
+            "kind": "",
+            "nodes": 0,
+            "who": "ours",
+            "name": name,
+            "memory": None,
+            "times": list(times),
+        }
+        for name, times in zip(SCRIPTS, zip(*rounds, strict=True), strict=True)
+    ]
 
 
 def _output(script):

@@ -2,6 +2,7 @@
 
 SR2 on the 81 nodes, swap by swap: the frames of swaps that were made, in equal steps.
 """
+
 import shutil
 from io import BytesIO
 from pathlib import Path
@@ -37,8 +38,9 @@ def film():
         page.goto(PAGE.as_uri())
         explorer = page.locator(".tag_explorer-swaps .mesh-page")
         explorer.wait_for()
-        page.add_style_tag(content=".bd-header, .readout, .tools { display: none !important; }"
-                                   ".mesh-page { padding: 12px; }")
+        page.add_style_tag(
+            content=".bd-header, .readout, .tools { display: none !important; }.mesh-page { padding: 12px; }"
+        )
         for address in addresses():
             page.evaluate("address => { location.hash = address; }", address)
             page.wait_for_timeout(TICK)
@@ -48,5 +50,12 @@ def film():
 
 if __name__ == "__main__":
     first, *others = film()
-    first.save(TARGET, save_all=True, append_images=others, loop=0, lossless=True, method=4,
-               duration=[REST] + [TICK] * (FRAMES - 2) + [REST])
+    first.save(
+        TARGET,
+        save_all=True,
+        append_images=others,
+        loop=0,
+        lossless=True,
+        method=4,
+        duration=[REST] + [TICK] * (FRAMES - 2) + [REST],
+    )

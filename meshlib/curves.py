@@ -11,13 +11,14 @@ The total is least where the integral of k^(1/3) is the same between any two nei
 mesh problem in one dimension, cut open at t = 0.  `boundary_parameters` solves it; what it
 returns goes, with the curve, into `deviation` and `domain_mesh`.
 """
+
 import numpy as np
 
 from . import checks
-from .delaunay import delaunay
-from .errors import MeshError
-from .mesh import Mesh
-from .polygons import inside, lattice_inside
+from .errors import InvalidInputError, InvalidMeshError
+from .geometry.polygons import inside, lattice_inside
+from .mesh.delaunay import delaunay
+from .mesh.mesh import Mesh
 
 DENSITIES = ("curvature", "length", "parameter")
 SAMPLES = 4096  # of the curve, along which the density is integrated
@@ -55,11 +56,17 @@ def equidistributed(density, n):
     density = checks.numeric(density, "density")
     bad = np.flatnonzero(~(np.isfinite(density) & (density >= 0)))
     if bad.size:
-        raise MeshError("range", f"the density of sample {bad[0]} is {density[bad[0]]}; "
-                        "give finite numbers of at least 0", bad)
+        raise InvalidInputError(
+            "range",
+            f"the density of sample {bad[0]} is {density[bad[0]]}; give finite numbers of at least 0",
+            bad,
+            bad.size,
+        )
     if not density.any():
-        raise MeshError("range", "the density is 0 everywhere, so that no place is better than another; "
-                        'use density="length"')
+        raise InvalidInputError(
+            "range",
+            'the density is 0 everywhere, so that no place is better than another; use density="length"',
+        )
     n = checks.whole(n, 1, "n")
     around = np.append(density, density[0])
     total = np.concatenate([[0], np.cumsum((around[1:] + around[:-1]) / 2)])
@@ -155,7 +162,7 @@ def deviation(curve, parameters):
     along = (away * chord).sum(axis=0)
     height = np.abs(chord[0] * away[1] - chord[1] * away[0])
     slivers = ((height[:, 1:] + height[:, :-1]) / 2 * np.diff(along)).sum(axis=1)
-    return float((slivers / (chord ** 2).sum(axis=0)[:, 0]).sum())
+    return float((slivers / (chord**2).sum(axis=0)[:, 0]).sum())
 
 
 def domain_mesh(curve, parameters, spacing=None):
@@ -200,7 +207,7 @@ def domain_mesh(curve, parameters, spacing=None):
     ring = _points(curve, _ascending(curve, parameters) % 1).T
     edges = np.roll(ring, -1, axis=0) - ring
     if (ring[:, 0] * edges[:, 1] - ring[:, 1] * edges[:, 0]).sum() <= 0:
-        raise MeshError("orientation", "the curve goes round clockwise; reverse its parameter")
+        raise InvalidMeshError("orientation", "the curve goes round clockwise; reverse its parameter")
     spacing = np.hypot(*edges.T).mean() if spacing is None else spacing
     spacing = checks.number(spacing, "spacing", np.nextafter(0, 1), np.inf, "a finite length above 0")
     whole = delaunay(np.concatenate([ring, lattice_inside(ring, spacing)]))
@@ -213,13 +220,19 @@ def _ascending(curve, parameters):
     _sampled(curve)
     t = checks.numeric(parameters, "parameters")
     if t.ndim != 1 or len(t) < SMALLEST_RING:
-        raise MeshError("shape", f"parameters have shape {t.shape}; give one number for each of at least "
-                        f"{SMALLEST_RING} nodes")
+        raise InvalidInputError(
+            "shape",
+            f"parameters have shape {t.shape}; give one number for each of at least {SMALLEST_RING} nodes",
+        )
     bad = np.flatnonzero(~(np.diff(t, append=t[0] + 1) > 0))
     if bad.size:
         k = (bad[0] + 1) % len(t)
-        raise MeshError("order", f"parameter {k} is {t[k]:g}, which does not follow {t[bad[0]]:g}; "
-                        "give them ascending, within one period", (k,))
+        raise InvalidInputError(
+            "order",
+            f"parameter {k} is {t[k]:g}, which does not follow {t[bad[0]]:g}; "
+            "give them ascending, within one period",
+            (k,),
+        )
     return t
 
 
@@ -229,8 +242,12 @@ def _refuse_missing(mesh, n):
     known = np.isin(pairs @ [mesh.n_nodes, 1], mesh.edges.astype(np.int64) @ [mesh.n_nodes, 1])
     if not known.all():
         i, j = pairs[~known][0]
-        raise MeshError("boundary", f"boundary nodes {i} and {j} are not joined in the Delaunay mesh; "
-                        "give more boundary nodes or a larger spacing", (i, j))
+        raise InvalidInputError(
+            "boundary",
+            f"boundary nodes {i} and {j} are not joined in the Delaunay mesh; "
+            "give more boundary nodes or a larger spacing",
+            (i, j),
+        )
 
 
 # -- densities --------------------------------------------------------------------------
@@ -240,19 +257,23 @@ def _sampled(curve):
     """Points (2, SAMPLES) of a closed curve at equal steps of its parameter, or a MeshError."""
     points = _points(curve, np.linspace(0, 1, SAMPLES + 1))
     if np.abs(points[:, -1] - points[:, 0]).max() > CLOSED * np.ptp(points, axis=1).max():
-        raise MeshError("closed", f"the curve is at {_text(points[:, 0])} for t = 0 and at "
-                        f"{_text(points[:, -1])} for t = 1; give a closed one")
+        raise InvalidInputError(
+            "closed",
+            f"the curve is at {_text(points[:, 0])} for t = 0 and at "
+            f"{_text(points[:, -1])} for t = 1; give a closed one",
+        )
     return points[:, :-1]
 
 
 def _points(curve, t):
     """The arrays x and y, stacked, at parameters of any shape, or a MeshError."""
     if not callable(curve):
-        raise MeshError("type", f"the curve is a {type(curve).__name__}; give a function of t "
-                        "that returns x and y")
+        raise InvalidInputError(
+            "type", f"the curve is a {type(curve).__name__}; give a function of t that returns x and y"
+        )
     points = checks.numeric(np.stack(np.broadcast_arrays(*curve(t))), "points of the curve")
     if points.shape != (2, *t.shape) or not np.isfinite(points).all():
-        raise MeshError("finite", "the curve must return finite x and y for every t from 0 to 1")
+        raise InvalidInputError("finite", "the curve must return finite x and y for every t from 0 to 1")
     return points
 
 
@@ -277,18 +298,23 @@ def _of_curvature(points, speed):
 
 def _above_noise(second, values):
     """Size of second differences, 0 where they are but the rounding of such values."""
-    noise = NOISE * np.finfo(float).eps * SAMPLES ** 2 * np.abs(values).max()
+    noise = NOISE * np.finfo(float).eps * SAMPLES**2 * np.abs(values).max()
     return np.where(np.abs(second) > noise, np.abs(second), 0)
 
 
-_OF_CURVE = {"curvature": _of_curvature, "length": lambda points, speed: speed,
-             "parameter": lambda points, speed: np.ones_like(speed)}
+_OF_CURVE = {
+    "curvature": _of_curvature,
+    "length": lambda points, speed: speed,
+    "parameter": lambda points, speed: np.ones_like(speed),
+}
 
 
 def _of_data(points, speed, function):
     """|u_ss|^(2/5) ds/dt, with u_ss = (u_tt - u_t speed_t / speed) / speed^2."""
     u = checks.numeric(function(*points), "values")
     if u.shape != speed.shape or not np.isfinite(u).all():
-        raise MeshError("finite", "the function must return one finite value for each point of the curve")
-    u_ss = (_second(u) - _derivative(u) * _derivative(speed) / speed) / speed ** 2
-    return _above_noise(u_ss, u / speed ** 2) ** DATA_POWER * speed
+        raise InvalidInputError(
+            "finite", "the function must return one finite value for each point of the curve"
+        )
+    u_ss = (_second(u) - _derivative(u) * _derivative(speed) / speed) / speed**2
+    return _above_noise(u_ss, u / speed**2) ** DATA_POWER * speed

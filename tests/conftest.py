@@ -1,4 +1,5 @@
 """Settings of the test run, the start meshes that several files share, and a browser."""
+
 import os
 import shutil
 from pathlib import Path
@@ -12,8 +13,13 @@ from meshlib import Mesh, problems
 SITE = Path(__file__).parents[1] / "_build" / "html"
 BROWSERS = "chromium", "chromium-browser", "google-chrome"
 
-settings.register_profile("deterministic", deadline=None, derandomize=True, database=None,
-                          suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile(
+    "deterministic",
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)
 settings.load_profile("deterministic")
 
 
@@ -37,7 +43,7 @@ def rng():
     return np.random.default_rng(2001)
 
 
-@pytest.fixture(params=problems.names)
+@pytest.fixture(params=problems.names())
 def start(request):
     """Each start mesh of the thesis in turn."""
     return problems.mesh(request.param)
@@ -55,6 +61,7 @@ def site():
 def address(request, site):
     """Where the site is, on a server of this machine or in a folder."""
     from visiting import served  # beside the tests in a browser, which alone need it
+
     if request.param == "disk":
         yield site.as_uri()
     else:

@@ -1,10 +1,11 @@
 """Hypothesis strategies: node sets full of cocircular and collinear cases."""
+
 import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
+from support import shuffled
 
 from meshlib import delaunay
-from support import shuffled
 
 SCALES = (1.0, 0.1, 1 / 3, 1e-9, 1e6)
 WIDTH = 5
@@ -25,7 +26,7 @@ def meshes(draw, most=14, scales=SCALES):
     """Valid meshes, some flips away from Delaunay."""
     scale = draw(st.sampled_from(scales))
     mesh = delaunay(draw(lattice_nodes(most, (scale,))))
-    seed = draw(st.integers(0, 2 ** 16))
+    seed = draw(st.integers(0, 2**16))
     return shuffled(mesh, np.random.default_rng(seed), draw(st.integers(0, 20)), unit=scale)
 
 

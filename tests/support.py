@@ -3,6 +3,7 @@
 A triangulation is a frozenset of elements, an element a sorted tuple of node numbers.
 Orientations are decided in rational arithmetic.
 """
+
 from fractions import Fraction
 
 import numpy as np
@@ -71,7 +72,7 @@ class Flips:
         opposite = {}
         for t in elements:
             for k in range(3):
-                opposite.setdefault(t[:k] + t[k + 1:], []).append(t[k])
+                opposite.setdefault(t[:k] + t[k + 1 :], []).append(t[k])
         for (a, b), apexes in opposite.items():
             if len(apexes) == 2 and self._convex(a, b, *apexes):
                 c, d = apexes

@@ -1,9 +1,10 @@
 """The ramp over the lattice: symmetry, exact alignment, and what springs repair."""
+
 import numpy as np
 import pytest
 
 from meshlib import MeshError, problems
-from meshlib.thesis import alignment
+from meshlib.thesis.studies import section_7_3_alignment as alignment
 
 
 def test_the_ramp_is_that_of_the_thesis():
@@ -21,7 +22,9 @@ def test_shapes_are_better_and_errors_larger_in_line_than_beside():
     for slope in ((0, 1), (1, 2), (1, 1), (2, 1), (1, 0)):
         angle = alignment.angle_of(*slope)
         error, skewness = alignment.measures("swapped", angle)
-        beside = [alignment.measures("swapped", angle + step) for step in (-alignment.BESIDE, alignment.BESIDE)]
+        beside = [
+            alignment.measures("swapped", angle + step) for step in (-alignment.BESIDE, alignment.BESIDE)
+        ]
         assert all(skewness < s - 0.2 and error > e for e, s in beside)
 
 

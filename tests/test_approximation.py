@@ -1,4 +1,5 @@
 """Meshes made for a known function: what must hold after every step, and how near the limit they come."""
+
 import os
 import signal
 import subprocess
@@ -9,22 +10,22 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support import lattice
 
 from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems, refined
-from meshlib.approximation import samples, sizes, strategy
+from meshlib.approximation import node_count, samples, strategy
 from meshlib.approximation.division import bisect, divide
-from meshlib.approximation.draft import Draft
-from meshlib.approximation.misfit import Misfit, half_slopes, powers, rule
+from meshlib.approximation.error_integrals import Misfit, half_slopes, powers, rule
 from meshlib.approximation.moves import _Sweep, move
+from meshlib.approximation.one_direction import in_turn
 from meshlib.approximation.patches import _curvature
-from meshlib.approximation.ridges import in_turn
-from meshlib.approximation.starts import regular
+from meshlib.approximation.start_mesh import regular
 from meshlib.approximation.swaps import swap
-from meshlib.choice import independent
-from meshlib.quality import angles
-from meshlib.sides import CORNER, INTERIOR, sides_of
-from meshlib.thesis.studies import settled_error
-from support import lattice
+from meshlib.approximation.working_mesh import Draft
+from meshlib.mesh.boundary_sides import CORNER, INTERIOR, sides_of
+from meshlib.mesh.quality import angles
+from meshlib.support.independent import independent
+from meshlib.thesis.studies.appendix_b import settled_error
 
 FRANKE = problems.functions["franke"]
 
@@ -48,7 +49,7 @@ def scattered(rng, n):
 
 def finely(u_h):
     """The same function on elements a quarter of the size, whose quadrature sees more."""
-    mesh = refined(u_h.mesh, u_h.values, "abn", 1.0, split="red-green").mesh
+    mesh = refined(u_h.mesh, u_h.values, "abn", fraction=1.0, split="red-green").mesh
     return Interpolant(mesh, u_h(*mesh.nodes.T))
 
 
@@ -73,8 +74,9 @@ def test_every_step_leaves_a_valid_mesh_that_interpolates(domain, ring, rng):
         assert draft.mesh.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
         assert np.array_equal(draft.values, front(*draft.nodes.T))
         u_h = Interpolant(draft.mesh, draft.values)
-        assert draft.error == pytest.approx(finely(u_h).l2_error(front, "exact", degree=12), rel=5e-3)
+        assert draft.error == pytest.approx(finely(u_h).l2_error(front, rule="exact", degree=12), rel=5e-3)
         seen.append(step)
+
     strategy.strategy(draft, 150, note)
     assert draft.n_nodes == 150
     assert set(seen) == {"grown", "moved", "renewed"}
@@ -91,7 +93,7 @@ def test_moves_and_swaps_never_raise_the_error(rng):
 
 
 def test_corners_stay_and_holes_stay_open(ring):
-    found = approximate(front, 120, domain=ring)
+    found = approximate(front, nodes=120, domain=ring)
     corners = ring.nodes[sides_of(ring).of_node == CORNER]
     assert len(corners) == 8
     assert (np.abs(found.mesh.nodes[:, None] - corners).sum(axis=2).min(axis=0) == 0).all()
@@ -101,7 +103,7 @@ def test_corners_stay_and_holes_stay_open(ring):
 
 
 def test_the_same_seed_gives_the_same_mesh_and_another_another():
-    one, again, other = (approximate(front, 50, seed=seed) for seed in (0, 0, 1))
+    one, again, other = (approximate(front, nodes=50, seed=seed) for seed in (0, 0, 1))
     assert one.mesh.equals(again.mesh) and np.array_equal(one.history, again.history)
     assert not one.mesh.equals(other.mesh)
 
@@ -119,31 +121,39 @@ for norm in ("L2", "max"):
 def test_processors_that_round_differently_give_the_same_mesh():
     """Products of matrices, and exponentials, differ in their last bits from one processor to another."""
     older = {"OPENBLAS_CORETYPE": "Prescott", "NPY_DISABLE_CPU_FEATURES": "X86_V4,X86_V3"}
-    one, other = (subprocess.run([sys.executable, "-W", "ignore", "-c", MESHES_MADE], env=os.environ | more,
-                                 check=True, capture_output=True, text=True).stdout for more in ({}, older))
+    one, other = (
+        subprocess.run(
+            [sys.executable, "-W", "ignore", "-c", MESHES_MADE],
+            env=os.environ | more,
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
+        for more in ({}, older)
+    )
     assert len(one.split()) == 8 and other == one
 
 
 def test_a_plane_costs_nothing():
-    found = approximate(lambda x, y: 3 * x - 2 * y + 1, 30)
+    found = approximate(lambda x, y: 3 * x - 2 * y + 1, nodes=30)
     assert found.error < 1e-14 and found.mesh.validate().n_nodes == 30
 
 
 def test_few_nodes():
-    assert approximate(front, 4).mesh.counts == (4, 5, 2)
-    assert approximate(front, 3, domain=delaunay([[0, 0], [1, 0], [0, 1]])).mesh.counts == (3, 3, 1)
-    assert approximate(front, 5).mesh.n_nodes == 5
+    assert approximate(front, nodes=4).mesh.counts == (4, 5, 2)
+    assert approximate(front, nodes=3, domain=delaunay([[0, 0], [1, 0], [0, 1]])).mesh.counts == (3, 3, 1)
+    assert approximate(front, nodes=5).mesh.n_nodes == 5
 
 
 def test_a_start_mesh_with_too_many_nodes_loses_some(rng):
     start = delaunay(scattered(rng, 60))
-    assert approximate(front, 40, domain=start).mesh.validate().n_nodes == 40
+    assert approximate(front, nodes=40, domain=start).mesh.validate().n_nodes == 40
 
 
 @pytest.mark.parametrize("function", [front, problems.functions["DD1"]])
 @pytest.mark.parametrize("angle", [10, 20, 30])
 def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
-    found = approximate(function, 120, min_angle=angle)
+    found = approximate(function, nodes=120, min_angle=angle)
     assert np.degrees(angles(found.mesh.corners).min()) >= angle - 1e-9
     assert found.mesh.n_nodes == 120
 
@@ -159,39 +169,47 @@ def test_bisections_leave_angles_as_they_were():
 
 
 def test_an_element_that_would_be_refused_has_an_error_where_a_mesh_has_it():
-    corners, values = np.array([[[0., 0], [1, 0], [0.5, 1e-6]]]), np.zeros((1, 3))
+    corners, values = np.array([[[0.0, 0], [1, 0], [0.5, 1e-6]]]), np.zeros((1, 3))
     misfit = Misfit(lambda x, y: 1 + 0 * x, 1 / 40)
     assert misfit.on_elements(corners, values) == [np.inf]
     assert misfit.on_elements(corners, values, is_new=False) == pytest.approx(5e-7)
 
 
 def test_the_history_tells_every_step():
-    found = approximate(front, 100)
+    found = approximate(front, nodes=100)
     last = found.history[-1]
     assert (last["nodes"], last["elements"], last["error"]) == (100, found.mesh.n_elements, found.error)
     assert last["evaluations"] == found.evaluations
     assert (np.diff(found.history["evaluations"]) > 0).all()
-    assert np.allclose(found.interpolant(*found.mesh.nodes.T), front(*found.mesh.nodes.T), rtol=1e-12, atol=1e-12)
+    assert np.allclose(
+        found.interpolant(*found.mesh.nodes.T), front(*found.mesh.nodes.T), rtol=1e-12, atol=1e-12
+    )
 
 
 # -- how good it is -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("function, limit, most", [
-    (FRANKE, 0.97625, 1.0), (lambda x, y: x ** 2 + y ** 2, 0.59628, 1.1), (lambda x, y: x ** 2 - y ** 2, 0.21082, 1.14)])
+@pytest.mark.parametrize(
+    "function, limit, most",
+    [
+        (FRANKE, 0.97625, 1.0),
+        (lambda x, y: x**2 + y**2, 0.59628, 1.1),
+        (lambda x, y: x**2 - y**2, 0.21082, 1.14),
+    ],
+)
 def test_the_error_is_near_the_limit(function, limit, most):
     """Error times elements over B: 1 is what no mesh of very many elements is much below."""
-    found = approximate(function, 300)
-    error = found.interpolant.l2_error(function, "exact", degree=12)
+    found = approximate(function, nodes=300)
+    error = found.interpolant.l2_error(function, rule="exact", degree=12)
     assert 0.85 < error * found.mesh.n_elements / limit < most
 
 
 @pytest.mark.parametrize("name, strips", [("SR1", 0.0966), ("SR2", 0.4347)])
 def test_a_function_of_one_direction_gets_three_quarters_of_the_error_of_strips(name, strips):
     """Parallel strips give the constant over the square of their number, here 199."""
-    found = approximate(problems.functions[name], 400)
+    found = approximate(problems.functions[name], nodes=400)
     assert found.mesh.validate().boundary_nodes.all()
-    assert found.error / (strips / 199 ** 2) == pytest.approx(0.75, abs=0.01)
+    assert found.error / (strips / 199**2) == pytest.approx(0.75, abs=0.01)
 
 
 def test_nodes_in_turn_in_figures():
@@ -199,11 +217,13 @@ def test_nodes_in_turn_in_figures():
 
     The errors are as the roots of sum d^2 + (sum d)^2: of 54 and 96.
     """
+
     def u(x, y):
-        return x ** 2
+        return x**2
+
     mesh = in_turn(u, np.zeros(2), np.ones(2), 402)
-    error = Interpolant(mesh, u).l2_error(u, "exact")
-    assert error / (2 * np.sqrt(6 / 720) / 200 ** 2) == pytest.approx(0.75, rel=0.02)
+    error = Interpolant(mesh, u).l2_error(u, rule="exact")
+    assert error / (2 * np.sqrt(6 / 720) / 200**2) == pytest.approx(0.75, rel=0.02)
 
 
 @pytest.mark.parametrize("direction", [(1, 0), (0, -1), (1, 1), (-1, 2), (3, 1)])
@@ -224,15 +244,17 @@ def test_other_functions_and_planes_get_no_such_mesh(function):
 @pytest.mark.parametrize("nodes", [155, 160, 165])
 def test_a_little_more_or_fewer_nodes_make_little_difference(nodes):
     """The limit of this function is B = 3.53."""
+
     def circle(x, y):
         return np.tanh(20 * (np.hypot(x - 0.5, y - 0.5) - 0.3))
-    found = approximate(circle, nodes)
+
+    found = approximate(circle, nodes=nodes)
     assert 0.9 < found.error * found.mesh.n_elements / 3.53 < 1.1
 
 
 @pytest.mark.parametrize("function", [front, FRANKE, problems.functions["SR2"]])
 def test_the_largest_error_is_lower_where_it_is_asked_for(function):
-    mean, largest = (approximate(function, 100, norm=norm) for norm in ("L2", "max"))
+    mean, largest = (approximate(function, nodes=100, norm=norm) for norm in ("L2", "max"))
     x, y = np.meshgrid(*[np.linspace(0, 1, 2001)] * 2)
     worst = [np.abs(found.interpolant(x, y) - function(x, y)).max() for found in (mean, largest)]
     assert worst[1] < 0.95 * worst[0]
@@ -241,16 +263,18 @@ def test_the_largest_error_is_lower_where_it_is_asked_for(function):
 
 
 def test_the_largest_error_of_a_function_of_one_direction_is_lower_where_it_is_asked_for():
-    mean, largest = (approximate(problems.functions["SR2"], 60, norm=norm) for norm in ("L2", "max"))
+    mean, largest = (approximate(problems.functions["SR2"], nodes=60, norm=norm) for norm in ("L2", "max"))
     x, y = np.meshgrid(*[np.linspace(0, 1, 801)] * 2)
-    worst = [np.abs(found.interpolant(x, y) - problems.functions["SR2"](x, y)).max() for found in (mean, largest)]
+    worst = [
+        np.abs(found.interpolant(x, y) - problems.functions["SR2"](x, y)).max() for found in (mean, largest)
+    ]
     assert worst[1] < 0.9 * worst[0] and largest.error == pytest.approx(worst[1], rel=0.03)
 
 
-@pytest.mark.parametrize("factor", [2.0 ** -80, 2.0 ** 80])
+@pytest.mark.parametrize("factor", [2.0**-80, 2.0**80])
 def test_the_largest_error_of_large_and_small_functions(factor):
     """Its sixteenth power is no number any more."""
-    ones, others = (approximate(lambda x, y, f=f: f * front(x, y), 60, norm="max") for f in (1, factor))
+    ones, others = (approximate(lambda x, y, f=f: f * front(x, y), nodes=60, norm="max") for f in (1, factor))
     assert others.mesh.equals(ones.mesh) and others.error == factor * ones.error
     assert np.array_equal(others.values, factor * ones.values)
 
@@ -258,7 +282,7 @@ def test_the_largest_error_of_large_and_small_functions(factor):
 @pytest.mark.parametrize("norm, error", [("L2", 0.21082 / 162), ("max", 1 / 324)])
 def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
     """Of x^2 - y^2 with spacings h: an L2 error of h^2 / sqrt(90), the limit itself, and a largest one of h^2 / 4."""
-    found = approximate(problems.functions["hyperbolic"], 100, norm=norm)
+    found = approximate(problems.functions["hyperbolic"], nodes=100, norm=norm)
     assert found.mesh.validate().counts == (100, 261, 162)
     assert found.error == pytest.approx(error, rel=1e-4)
     assert "compared" in found.history["step"]
@@ -267,7 +291,7 @@ def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
 @pytest.mark.parametrize("function", [front, problems.functions["DD1"]])
 def test_the_error_is_confirmed_by_another_quadrature(function):
     """On elements divided until their part has settled; DD1 has kinks."""
-    found = approximate(function, 100)
+    found = approximate(function, nodes=100)
     assert found.error == pytest.approx(settled_error(found.mesh, function), rel=1e-3)
     assert found.history["step"][-1] == "measured"
 
@@ -275,9 +299,12 @@ def test_the_error_is_confirmed_by_another_quadrature(function):
 def test_a_lattice_with_smaller_angles_than_allowed_is_not_taken():
     """Of cells twice as high as wide it would have angles of 26.6 degrees."""
     assert regular(((0, 0), (1, 4)), 6).counts == (6, 9, 4)
-    found = approximate(lambda x, y: 4 * x * x - y * y, 6, ((0, 0), (1, 4)), min_angle=30)
+    found = approximate(lambda x, y: 4 * x * x - y * y, nodes=6, domain=((0, 0), (1, 4)), min_angle=30)
     assert "compared" not in found.history["step"]
-    assert "compared" in approximate(lambda x, y: 4 * x * x - y * y, 6, ((0, 0), (1, 4))).history["step"]
+    assert (
+        "compared"
+        in approximate(lambda x, y: 4 * x * x - y * y, nodes=6, domain=((0, 0), (1, 4))).history["step"]
+    )
 
 
 def test_a_lattice_fits_its_rectangle():
@@ -286,7 +313,7 @@ def test_a_lattice_fits_its_rectangle():
     assert regular(((0, 0), (1, 1)), 3) is None
 
 
-@given(st.integers(0, 2 ** 32 - 1))
+@given(st.integers(0, 2**32 - 1))
 def test_divided_elements_are_a_valid_mesh_with_a_smaller_error(seed):
     """Of a convex function every part lies between its chord and its graph."""
     rng = np.random.default_rng(seed)
@@ -316,7 +343,7 @@ def test_the_rule_is_exact_to_degree_six_or_on_parts_to_four(level, halvings):
     """The integral of p^i q^j r^k over an element of area 1 is 2 i! j! k! / (i + j + k + 2)!."""
     points, weights = rule(level, halvings)
     degree, each = (4, 6) if level + halvings else (6, 12)
-    assert len(weights) == each * 4 ** level * 2 ** halvings and (weights > 0).all()
+    assert len(weights) == each * 4**level * 2**halvings and (weights > 0).all()
     assert weights.sum() == pytest.approx(1) and np.allclose(points.sum(axis=1), 1)
     factorial = np.cumprod([1, *range(1, 9)])
     for i, j in ((degree, 0), (3, 1), (2, 2), (1, 3), (0, 4)):
@@ -327,13 +354,17 @@ def test_the_rule_is_exact_to_degree_six_or_on_parts_to_four(level, halvings):
 
 def test_features_between_the_nodes_are_seen():
     """A bump of a fiftieth of the square is not missed by two elements."""
+
     def bump(x, y):
-        return np.exp(-((x - 0.61) ** 2 + (y - 0.37) ** 2) / 0.02 ** 2)
-    error = Misfit(bump, 1 / 40).on_elements(np.array([[[0., 0], [1, 0], [1, 1]]]), np.zeros((1, 3)))
-    assert error[0] == pytest.approx(np.pi * 0.02 ** 2 / 2, rel=0.01)
+        return np.exp(-((x - 0.61) ** 2 + (y - 0.37) ** 2) / 0.02**2)
+
+    error = Misfit(bump, 1 / 40).on_elements(np.array([[[0.0, 0], [1, 0], [1, 1]]]), np.zeros((1, 3)))
+    assert error[0] == pytest.approx(np.pi * 0.02**2 / 2, rel=0.01)
 
 
-@given(st.lists(st.tuples(st.floats(-1, 1), st.lists(st.integers(-1, 5), min_size=1, max_size=3)), max_size=12))
+@given(
+    st.lists(st.tuples(st.floats(-1, 1), st.lists(st.integers(-1, 5), min_size=1, max_size=3)), max_size=12)
+)
 def test_chosen_changes_share_nothing_and_the_best_is_among_them(candidates):
     gain = np.array([g for g, _ in candidates])
     rows = np.repeat(np.arange(len(candidates)), [len(i) for _, i in candidates])
@@ -357,20 +388,29 @@ def test_sides_of_a_domain_with_a_hole(ring):
 # -- bad input, interrupts -------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ({"nodes": 2}, "range: nodes is 2; give a whole number from 3"),
-    ({"nodes": 3}, "nodes: 3 nodes are too few for this domain, 4 are left; give more"),
-    ({"domain": ((0, 0), (0, 1))}, "domain: the rectangle from [0.0, 0.0] to [0.0, 1.0] has no area or is too long; "
-                                   "give the lower left and the upper right corner"),
-    ({"domain": "square"}, "domain: the domain is 'square'; give the lower left and the upper right corner "
-                           "of a rectangle, or a mesh"),
-    ({"min_angle": 40}, "range: min_angle is 40; give degrees from 0 to 30"),
-    ({"norm": "L1"}, "unknown: norm 'L1' is not known"),
-    ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
-    ({"function": lambda x, y: x[:1]}, "shape: the function returned shape"),
-    ({"function": lambda x, y: x + 1j}, "dtype complex128 for points"),
-    ({"function": lambda x, y: np.where(x > 0.9, np.nan, x)}, "it must be finite in the whole domain"),
-])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        ({"nodes": 2}, "range: nodes is 2; give a whole number of at least 3"),
+        ({"nodes": 3}, "nodes: 3 nodes are too few for this domain, 4 are left; give more"),
+        (
+            {"domain": ((0, 0), (0, 1))},
+            "domain: the rectangle from [0.0, 0.0] to [0.0, 1.0] has no area or is too long; "
+            "give the lower left and the upper right corner",
+        ),
+        (
+            {"domain": "square"},
+            "domain: the domain is 'square'; give the lower left and the upper right corner "
+            "of a rectangle, or a mesh",
+        ),
+        ({"min_angle": 40}, "range: min_angle is 40; give degrees from 0 to 30"),
+        ({"norm": "L1"}, "unknown: norm 'L1' is not known"),
+        ({"seed": -1}, "range: seed is -1; give a whole number of at least 0"),
+        ({"function": lambda x, y: x[:1]}, "shape: the function returned shape"),
+        ({"function": lambda x, y: x + 1j}, "dtype complex128 for points"),
+        ({"function": lambda x, y: np.where(x > 0.9, np.nan, x)}, "it must be finite in the whole domain"),
+    ],
+)
 def test_bad_input_is_named(arguments, message):
     with pytest.raises(MeshError) as error:
         approximate(**({"function": front, "nodes": 20} | arguments))
@@ -381,9 +421,10 @@ def test_an_interrupt_keeps_the_mesh(monkeypatch):
     def report(watch, done):
         if done == 3:
             signal.raise_signal(signal.SIGINT)
-    monkeypatch.setattr("meshlib.watching.Watch.report", report)
+
+    monkeypatch.setattr("meshlib.support.progress.Watch.report", report)
     with pytest.raises(Interrupted) as stop:
-        approximate(front, 100)
+        approximate(front, nodes=100)
     found = stop.value.result
     assert len(found.history) == 3 and found.mesh.validate().n_nodes >= 16
     assert np.array_equal(found.values, front(*found.mesh.nodes.T))
@@ -396,8 +437,8 @@ def test_an_interrupt_keeps_the_mesh(monkeypatch):
 def test_a_tolerance_is_reached_and_three_per_cent_fewer_nodes_miss_it(tolerance):
     found = approximate(FRANKE, tolerance=tolerance)
     assert found.error <= tolerance
-    assert approximate(FRANKE, int(found.mesh.n_nodes / 1.03) - 1).error > tolerance
-    assert found.evaluations > approximate(FRANKE, found.mesh.n_nodes).evaluations
+    assert approximate(FRANKE, nodes=int(found.mesh.n_nodes / 1.03) - 1).error > tolerance
+    assert found.evaluations > approximate(FRANKE, nodes=found.mesh.n_nodes).evaluations
 
 
 @pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
@@ -407,14 +448,15 @@ def test_the_least_number_is_found_whatever_the_order_of_convergence(order, enou
 
     def trial(nodes):
         tried.append(nodes)
-        return SimpleNamespace(nodes=nodes, error=nodes ** -order)
-    found = sizes.least(trial, enough ** -order * (1 + 1e-12), 4, 200_000)
+        return SimpleNamespace(nodes=nodes, error=nodes**-order)
+
+    found = node_count.least(trial, enough**-order * (1 + 1e-12), 4, 200_000)
     assert enough <= found.nodes <= max(enough, 1.02 * enough)
     assert len(tried) <= 15
 
 
 def test_a_tolerance_out_of_reach_is_told():
-    assert sizes.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, 1000) is None
+    assert node_count.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, 1000) is None
 
 
 def test_samples_on_a_grid_are_bilinear_between():
@@ -426,22 +468,32 @@ def test_samples_on_a_grid_are_bilinear_between():
 
 def test_samples_give_the_mesh_of_their_function():
     ticks = np.linspace(0, 1, 401)
-    found, exact = approximate(front(*np.meshgrid(ticks, ticks)), 100), approximate(front, 100)
+    found, exact = approximate(front(*np.meshgrid(ticks, ticks)), nodes=100), approximate(front, nodes=100)
     found.mesh.validate()
     assert found.error == pytest.approx(exact.error, rel=0.1)
     assert found.values == pytest.approx(front(*found.mesh.nodes.T), abs=2e-3)
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ((front,), "nodes: nodes is None and tolerance is None; give one of them"),
-    ((front, 9, ((0, 0), (1, 1)), None, 0, False, 1.0),
-     "nodes: nodes is 9 and tolerance is 1.0; give one of them"),
-    ((front, None, ((0, 0), (1, 1)), None, 0, False, 0),
-     "tolerance: the tolerance is 0; give a number above 0"),
-    (([[1, 2], [np.nan, 4]], 9), "finite: sample (1, 0) is nan; fill it in or cut it off"),
-    (([1, 2], 9), "samples: samples have shape (2,) and dtype int64; "
-                  "give two rows and columns of real numbers at least"),
-])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        ((front,), "nodes: nodes is None and tolerance is None; give one of them"),
+        (
+            (front, 9, ((0, 0), (1, 1)), None, 0, False, 1.0),
+            "nodes: nodes is 9 and tolerance is 1.0; give one of them",
+        ),
+        (
+            (front, None, ((0, 0), (1, 1)), None, 0, False, 0),
+            "tolerance: the tolerance is 0; give a number above 0",
+        ),
+        (([[1, 2], [np.nan, 4]], 9), "finite: sample (1, 0) is nan; fill it in or cut it off"),
+        (
+            ([1, 2], 9),
+            "samples: samples have shape (2,) and dtype int64; "
+            "give two rows and columns of real numbers at least",
+        ),
+    ],
+)
 def test_what_cannot_be_asked(arguments, message):
     *rest, tolerance = arguments if len(arguments) == 7 else (*arguments, None)
     with pytest.raises(MeshError) as caught:
@@ -463,15 +515,17 @@ def test_the_slope_of_the_error_of_a_patch_is_its_derivative(squarings, rng):
     frames = 1e-3 * patches.frames(*sweep.around.of(nodes))
     slope, _ = patches.model(frames)
     for k in range(2):
-        ahead, behind = (patches.moved(at, draft.misfit.values(*at.T.copy()))[0] for at in
-                         (draft.nodes[nodes] + frames[:, k], draft.nodes[nodes] - frames[:, k]))
+        ahead, behind = (
+            patches.moved(at, draft.misfit.values(*at.T.copy()))[0]
+            for at in (draft.nodes[nodes] + frames[:, k], draft.nodes[nodes] - frames[:, k])
+        )
         assert (ahead - behind) / 2 == pytest.approx(slope[:, k], rel=1e-2, abs=1e-3 * abs(slope[:, k]).max())
 
 
 @pytest.mark.parametrize("squarings, power", [(1, 2), (2, 4), (4, 16)])
 def test_powers_by_multiplication(squarings, power):
     miss = np.linspace(-2, 2, 9)
-    assert powers(miss, squarings) == pytest.approx(miss ** power)
+    assert powers(miss, squarings) == pytest.approx(miss**power)
     assert half_slopes(miss, squarings) == pytest.approx(power / 2 * miss ** (power - 1))
 
 
@@ -482,8 +536,14 @@ def test_the_curvature_is_that_of_a_quadratic_function():
         edges = np.array([y[0] - p, z[0] - p, z[0] - y[0]])
         d = np.einsum("ni,ij,nj->n", edges, hessian[0], edges)
         area = abs((edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]) / 2)
-        return area / 720 * ((d ** 2).sum() + d.sum() ** 2)
+        return area / 720 * ((d**2).sum() + d.sum() ** 2)
+
     h, units = 1e-3, np.eye(2)
-    expected = [[(error(h * (a + b)) - error(h * (a - b)) - error(h * (b - a)) + error(-h * (a + b))) / (4 * h * h)
-                 for b in units] for a in units]
+    expected = [
+        [
+            (error(h * (a + b)) - error(h * (a - b)) - error(h * (b - a)) + error(-h * (a + b))) / (4 * h * h)
+            for b in units
+        ]
+        for a in units
+    ]
     assert _curvature(y, z, hessian)[0] == pytest.approx(np.array(expected), rel=1e-4)

@@ -1,4 +1,5 @@
 """The compiled procedure against an independent one, and numba against plain Python."""
+
 import dataclasses
 import importlib.util
 import json
@@ -10,10 +11,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import criteria, delaunay, problems, swapped
 from strategies import problems_of
 from support import lattice, shuffled
+
+from meshlib import criteria, delaunay, problems, swapped
 
 NAMES = ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle")
 NORMS = (1, 2, "max")
@@ -28,19 +29,26 @@ def reference(name):
 
 def rows(trace):
     """What was tried, each edge seen from its smaller node: a-b with c, d is b-a with d, c."""
-    return [(r["sweep"], r["edge"], *min((r["a"], r["b"], r["c"], r["d"]), (r["b"], r["a"], r["d"], r["c"])),
-             r["accepted"]) for r in trace]
+    return [
+        (
+            r["sweep"],
+            r["edge"],
+            *min((r["a"], r["b"], r["c"], r["d"]), (r["b"], r["a"], r["d"], r["c"])),
+            r["accepted"],
+        )
+        for r in trace
+    ]
 
 
 def assert_same(mesh, values, name, norm, **arguments):
-    ours = swapped(mesh, values, name, norm, **arguments)
-    theirs = swapped(mesh, values, reference(name), norm, **arguments)
+    ours = swapped(mesh, values, name, norm=norm, **arguments)
+    theirs = swapped(mesh, values, reference(name), norm=norm, **arguments)
     assert (ours.swaps, ours.sweeps, ours.tried) == (theirs.swaps, theirs.sweeps, theirs.tried)
     assert ours.mesh.equals(theirs.mesh)
-    assert rows(ours.trace) == rows(theirs.trace)
+    assert rows(ours.history) == rows(theirs.history)
     for field in ("old", "new"):  # small costs are differences of large gradients
-        noise = 1e-12 * theirs.trace[field].max(initial=0)
-        assert np.allclose(ours.trace[field], theirs.trace[field], rtol=1e-12, atol=noise)
+        noise = 1e-12 * theirs.history[field].max(initial=0)
+        assert np.allclose(ours.history[field], theirs.history[field], rtol=1e-12, atol=noise)
     assert ours.cost_after == pytest.approx(theirs.cost_after, rel=1e-12, abs=1e-12)
     return ours
 
@@ -62,15 +70,22 @@ def test_with_limits(name, limits):
     values = problems.functions["SR2"](*mesh.nodes.T)
     for norm in NORMS:
         found = assert_same(mesh, values, name, norm, **limits)
-        assert found.tried <= swapped(mesh, values, name, norm).tried or found.sweeps > 1
+        assert found.tried <= swapped(mesh, values, name, norm=norm).tried or found.sweeps > 1
 
 
 @settings(max_examples=150)
-@given(problems_of(scales=(1.0, 2.0 ** -20, 2.0 ** 20)), st.sampled_from(NAMES), st.sampled_from(NORMS),
-       st.sampled_from(LIMITS), st.integers(0, 999))
+@given(
+    problems_of(scales=(1.0, 2.0**-20, 2.0**20)),
+    st.sampled_from(NAMES),
+    st.sampled_from(NORMS),
+    st.sampled_from(LIMITS),
+    st.integers(0, 999),
+)
 def test_on_lattices_with_small_integers(problem, name, norm, limits, seed):
     mesh, values = problem
-    assert_same(mesh, values, name, norm, order=np.random.default_rng(seed).permutation(mesh.n_edges), **limits)
+    assert_same(
+        mesh, values, name, norm, order=np.random.default_rng(seed).permutation(mesh.n_edges), **limits
+    )
 
 
 @settings(max_examples=80)
@@ -104,7 +119,7 @@ for name in ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle"):
             start = problems.mesh(problem)
             order = np.random.default_rng(5).permutation(start.n_edges)
             r = swapped(start, problems.functions[function], name, norm, order=order, min_angle=2)
-            t = r.trace
+            t = r.history
             found[f"{name} {norm} {problem}"] = [r.swaps, r.sweeps, r.tried, r.mesh.elements.tolist(),
                 t[["edge", "a", "b", "c", "d", "accepted"]].tolist(), t["old"].tolist(), t["new"].tolist()]
 springs = np.random.default_rng(5).random(88)
@@ -117,8 +132,9 @@ json.dump(found, sys.stdout)
 def run(program, backend):
     """What a fresh interpreter with this backend prints."""
     environment = {**os.environ, "MESHLIB_BACKEND": backend}
-    return subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True,
-                          check=False)
+    return subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False
+    )
 
 
 def test_numba_and_python_agree():
@@ -138,41 +154,56 @@ import json, sys
 import numpy as np
 from meshlib import Interpolant, criteria, delaunay, problems, smoothed, swapped
 def show(r, *more):
-    t = r.trace
+    t = r.history
     exact = [r.swaps, r.sweeps, r.tried, r.mesh.elements.tolist(), t[["edge", "a", "b", "c", "d"]].tolist()]
     near = [r.cost_before, r.cost_after, *t["old"].tolist(), *t["new"].tolist(), *more]
     print(json.dumps(["numba" in sys.modules, exact, near]))
 """
-SMALL = FRESH + """
+SMALL = (
+    FRESH
+    + """
 for name in ("33", "81"):
     mesh = problems.mesh(name)
     for schedule in ("sweep", "queue"):
         error = Interpolant(mesh, problems.SR2).l2_error(problems.SR2)
         show(swapped(mesh, problems.SR2, schedule=schedule), error, *smoothed(mesh).mesh.nodes.ravel())
 """
-LARGE = FRESH + """
+)
+LARGE = (
+    FRESH
+    + """
 mesh = delaunay(np.random.default_rng(0).random((4100, 2)))
 show(swapped(mesh, problems.SR2))
 """
-MANY_SMALL = FRESH + """
+)
+MANY_SMALL = (
+    FRESH
+    + """
 from meshlib import kernels
 mesh = problems.mesh("33")
 kernels.BUDGET = 3 * 25 * mesh.n_edges  # of three runs: a result, its trace, and another result
 for order in (None, np.arange(mesh.n_edges)[::-1]):
     show(swapped(mesh, problems.SR2, order=order))
 """
-OWN = FRESH + """
+)
+OWN = (
+    FRESH
+    + """
 own = criteria.pointwise("own", "element", lambda ax, ay, au, bx, by, bu, cx, cy, cu: abs(au - bu) + abs(bu - cu))
 show(swapped(problems.mesh("33"), problems.SR2, own, norm=1))
 """
+)
 
 
-@pytest.mark.parametrize("program, loaded", [
-    (SMALL, [False] * 4), (LARGE, [True]), (MANY_SMALL, [False, True]), (OWN, [True])])
+@pytest.mark.parametrize(
+    "program, loaded", [(SMALL, [False] * 4), (LARGE, [True]), (MANY_SMALL, [False, True]), (OWN, [True])]
+)
 def test_numba_is_loaded_where_it_pays_and_nothing_else_depends_on_it(program, loaded):
     pytest.importorskip("numba")
-    by_itself, compiled, plain = ([json.loads(line) for line in run(program, name).stdout.splitlines()]
-                                  for name in ("auto", "numba", "python"))
+    by_itself, compiled, plain = (
+        [json.loads(line) for line in run(program, name).stdout.splitlines()]
+        for name in ("auto", "numba", "python")
+    )
     assert [line[0] for line in by_itself] == loaded
     assert [line[0] for line in compiled + plain] == [True] * len(loaded) + [False] * len(loaded)
     for other in (compiled, plain):
@@ -186,11 +217,14 @@ def test_an_unknown_backend_is_named():
     assert result.returncode == 1
     assert result.stderr.splitlines()[-1] == (
         "meshlib.errors.MeshError: unknown: MESHLIB_BACKEND 'nuba' is not known; did you mean 'numba'? "
-        "(known: 'auto', 'numba', 'python')")
+        "(known: 'auto', 'numba', 'python')"
+    )
 
 
 def test_without_numba_the_extra_is_named():
-    hidden = "import sys; sys.modules['numba'] = None\nfrom meshlib.kernels import backend\nprint(backend.NAME)"
+    hidden = (
+        "import sys; sys.modules['numba'] = None\nfrom meshlib.kernels import backend\nprint(backend.NAME)"
+    )
     assert run(hidden, "auto").stdout == "python\n"
     last = run(hidden, "numba").stderr.splitlines()[-1]
     assert last.startswith("ImportError: numba is needed here: pip install '") and last.endswith("[fast]'")
@@ -198,6 +232,7 @@ def test_without_numba_the_extra_is_named():
 
 def test_the_backend_of_this_run_is_the_one_asked_for():
     from meshlib.kernels import backend
+
     installed = importlib.util.find_spec("numba") is not None
     asked = os.environ.get("MESHLIB_BACKEND", "auto")
     assert backend.NAME == ("numba" if asked != "python" and installed else "python")
@@ -205,12 +240,16 @@ def test_the_backend_of_this_run_is_the_one_asked_for():
 
 def test_core_needs_neither_numba_nor_matplotlib():
     """numpy and scipy are enough for everything but figures and widgets."""
-    hidden = ("import sys\nfor name in ('numba', 'matplotlib', 'ipywidgets', 'anywidget', 'meshio'):\n"
-              "    sys.modules[name] = None\n"
-              "from meshlib import problems, swapped\n"
-              "print(swapped(problems.mesh('33'), problems.functions['SR2']).swaps)")
+    hidden = (
+        "import sys\nfor name in ('numba', 'matplotlib', 'ipywidgets', 'anywidget', 'meshio'):\n"
+        "    sys.modules[name] = None\n"
+        "from meshlib import problems, swapped\n"
+        "print(swapped(problems.mesh('33'), problems.functions['SR2']).swaps)"
+    )
     result = run(hidden, "auto")
-    assert result.stdout.strip() == str(swapped(problems.mesh("33"), problems.functions["SR2"]).swaps), result.stderr
+    assert result.stdout.strip() == str(swapped(problems.mesh("33"), problems.functions["SR2"]).swaps), (
+        result.stderr
+    )
 
 
 def test_a_large_lattice_in_reasonable_time():

@@ -1,13 +1,14 @@
 """What the benchmarks measure and report of meshes made for functions."""
+
 import json
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from support import lattice
 
 from meshlib import Mesh, delaunay, problems
-from support import lattice
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 import approximation  # noqa: E402
@@ -19,13 +20,22 @@ import run  # noqa: E402
 
 def made(function, nodes, who="ours", **numbers):
     """A line as `approximation.line` writes it."""
-    return {"function": function, "who": who, "nodes": nodes, "found": nodes, "elements": 2 * nodes,
-            "seconds": 1.0, "valid": True} | numbers
+    return {
+        "function": function,
+        "who": who,
+        "nodes": nodes,
+        "found": nodes,
+        "elements": 2 * nodes,
+        "seconds": 1.0,
+        "valid": True,
+    } | numbers
 
 
 LINES = [
-    *(made("ring", 6400, seed=k, error=e, claimed=e, seconds=s)
-      for k, e, s in ((0, 1e-4, 3.0), (1, 2e-4, 5.0), (2, 1e-4, 4.0))),
+    *(
+        made("ring", 6400, seed=k, error=e, claimed=e, seconds=s)
+        for k, e, s in ((0, 1e-4, 3.0), (1, 2e-4, 5.0), (2, 1e-4, 4.0))
+    ),
     made("ring", 25_600, error=2.5e-5, claimed=2.51e-5, seconds=20.0),
     made("ring", 6400, "mmg2d", error=9e-5, found=12_800, floor=0.1, seconds=2.0),
     made("ring", 6400, "mmg2d", error=1.5e-4, floor=0.01, seconds=7.0),
@@ -39,14 +49,15 @@ LINES = [
 
 @pytest.fixture
 def results(monkeypatch):
-    monkeypatch.setattr(page, "results", lambda: {"approximate": {"lines": LINES, "B": {"ring": 2.0},
-                                                                  "K": {"SR1": 0.1}}})
+    monkeypatch.setattr(
+        page, "results", lambda: {"approximate": {"lines": LINES, "B": {"ring": 2.0}, "K": {"SR1": 0.1}}}
+    )
 
 
 def test_measures_of_lines(results):
     assert page.efficiency("ring", 6400) == pytest.approx(2e-4 * 12_800 / 2)  # of the worst seed
     assert page.efficiency("SR1", 402) is None and page.efficiency("ring", 100) is None
-    assert page.over_strips("SR1", 402) == pytest.approx(2e-6 * 200 ** 2 / 0.1)
+    assert page.over_strips("SR1", 402) == pytest.approx(2e-6 * 200**2 / 0.1)
     assert page.greedy_error("ring", 6400) == pytest.approx(3)
     assert page.greedy_largest("ring", 6400) == pytest.approx(2)
     assert page.growth("ring", 25_600) == pytest.approx(20 / 4)
@@ -78,8 +89,9 @@ def test_the_worst_decides(results):
 def test_what_falls_short_says_what_no_mesh_could_do(results, monkeypatch):
     assert "pydelatin" not in page.falls_short().data
     better = [row | {"error": 1.6e-4} if row["who"] == "pydelatin" else row for row in LINES]
-    monkeypatch.setattr(page, "results", lambda: {"approximate": {"lines": better, "B": {"ring": 2.0},
-                                                                  "K": {"SR1": 0.1}}})
+    monkeypatch.setattr(
+        page, "results", lambda: {"approximate": {"lines": better, "B": {"ring": 2.0}, "K": {"SR1": 0.1}}}
+    )
     (text,) = (t for t in page.falls_short().data.split("\n\n") if "of pydelatin" in t)
     assert "1.6 instead of 1.7 for ring on 6,400 nodes" in text
     assert "1.02 times above the limit" in text  # 1.6e-4 * 12,800 / 2
@@ -93,7 +105,7 @@ def test_no_results_no_verdicts(monkeypatch):
 
 def test_the_limit_of_a_panel(results):
     assert page.least("ring", 100) == pytest.approx(2 / 200)
-    assert page.least("SR1", 402) == pytest.approx(0.75 * 0.1 / 200 ** 2)
+    assert page.least("SR1", 402) == pytest.approx(0.75 * 0.1 / 200**2)
 
 
 # -- measuring ---------------------------------------------------------------------------------
@@ -101,10 +113,12 @@ def test_the_limit_of_a_panel(results):
 
 def test_the_confirming_quadrature_finds_what_is_known_and_what_is_small():
     assert approximation.confirmed(problems.mesh("81"), problems.functions["convex"]) == pytest.approx(
-        0.0054625461, rel=1e-8)
+        0.0054625461, rel=1e-8
+    )
 
     def spike(x, y):  # of width 0.005, on two elements
-        return np.exp(-((x - 0.5) ** 2 + (y - 0.25) ** 2) / (2 * 0.005 ** 2))
+        return np.exp(-((x - 0.5) ** 2 + (y - 0.25) ** 2) / (2 * 0.005**2))
+
     mesh = delaunay(lattice(1, 1))
     assert approximation.confirmed(mesh, spike) == pytest.approx(np.sqrt(np.pi) * 0.005, rel=1e-3)
 
@@ -116,8 +130,10 @@ def test_the_largest_error_of_a_paraboloid_is_the_square_of_the_circumradius():
 
 def test_floors_are_tuned_with_few_nodes():
     row = {"who": "mmg2d", "error": 1.0, "found": 100}
-    before = [row | {"nodes": 1600, "floor": floor, "error": abs(k - 2) + 0.1}
-              for k, floor in enumerate(approximation.FLOORS)]
+    before = [
+        row | {"nodes": 1600, "floor": floor, "error": abs(k - 2) + 0.1}
+        for k, floor in enumerate(approximation.FLOORS)
+    ]
     assert approximation.floors_for(1600, before) == approximation.FLOORS
     assert approximation.floors_for(6400, []) == approximation.FLOORS
     assert approximation.floors_for(6400, before) == approximation.FLOORS[1:4]
@@ -132,8 +148,10 @@ def test_the_metric_is_optimal_for_a_quadratic():
 
 
 def test_a_run_renews_only_what_it_measures(tmp_path, monkeypatch):
-    file, old = tmp_path / "results.json", {"date": "then", "results": [{"measure": "grid"}],
-                                            "approximate": {"date": "then", "lines": []}}
+    file, old = (
+        tmp_path / "results.json",
+        {"date": "then", "results": [{"measure": "grid"}], "approximate": {"date": "then", "lines": []}},
+    )
     file.write_text(json.dumps(old))
     new = {"approximate": {"date": "now", "lines": [{"nodes": 100}, {"nodes": 400}]}}
     monkeypatch.setattr(run, "approximated", lambda chosen: new)

@@ -1,13 +1,17 @@
 """Cost functions: values by hand, scaling, rigid motions, and the registry."""
+
 import numpy as np
 import pytest
 
 from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems
-from meshlib.norms import NORMS, measure, norm_of, precedes
+from meshlib.criteria.norms import NORMS, measure, norm_of, precedes
 
 BUILT_IN = ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle", "gradient-spread")
-MOTIONS = {"shift": (np.eye(2), (3, -7)), "turn": (np.array([[0.6, 0.8], [-0.8, 0.6]]), (0, 0)),
-           "quarter turn": (np.array([[0.0, 1], [-1, 0]]), (1, 1))}
+MOTIONS = {
+    "shift": (np.eye(2), (3, -7)),
+    "turn": (np.array([[0.6, 0.8], [-0.8, 0.6]]), (0, 0)),
+    "quarter turn": (np.array([[0.0, 1], [-1, 0]]), (1, 1)),
+}
 
 
 @pytest.fixture
@@ -88,8 +92,10 @@ def test_a_mirrored_mesh_costs_the_same(name):
     mesh = problems.mesh("33")
     u = problems.functions["SR1"](*mesh.nodes.T)
     mirrored = Mesh(mesh.nodes * [-1, 1], mesh.elements[:, ::-1])
-    assert np.allclose(criteria.costs(mirrored, u, name), criteria.costs(mesh, u, name), atol=1e-11) \
+    assert (
+        np.allclose(criteria.costs(mirrored, u, name), criteria.costs(mesh, u, name), atol=1e-11)
         or criteria.get(name).on == "element"
+    )
     assert np.sort(criteria.costs(mirrored, u, name)) == pytest.approx(np.sort(criteria.costs(mesh, u, name)))
 
 
@@ -105,7 +111,9 @@ def test_jnd_of_all_edges_is_the_jump_along_the_normal(rng):
     values = rng.standard_normal(30)
     g = Interpolant(mesh, values).gradients
     left, right = mesh.edge_elements[~mesh.boundary].T
-    assert np.allclose(criteria.costs(mesh, values)[~mesh.boundary], np.linalg.norm(g[left] - g[right], axis=1))
+    assert np.allclose(
+        criteria.costs(mesh, values)[~mesh.boundary], np.linalg.norm(g[left] - g[right], axis=1)
+    )
 
 
 # -- norms ---------------------------------------------------------------------------------
@@ -118,10 +126,17 @@ def test_norms_by_hand():
     assert norm_of(vector, np.inf) == 4
 
 
-@pytest.mark.parametrize("first, second, before", [
-    ((2, 1), (2, 3), (1, 2, "max", "lexicographic")), ((2, 1), (2, 2), (1, 2, "lexicographic")),
-    ((2, 2), (3, 0), ("max", "lexicographic", 2)), ((3, 3), (1, 4), ("max", "lexicographic")),
-    ((1, 1), (1, 1), ()), ((1, 2), (2, 1), ())])
+@pytest.mark.parametrize(
+    "first, second, before",
+    [
+        ((2, 1), (2, 3), (1, 2, "max", "lexicographic")),
+        ((2, 1), (2, 2), (1, 2, "lexicographic")),
+        ((2, 2), (3, 0), ("max", "lexicographic", 2)),
+        ((3, 3), (1, 4), ("max", "lexicographic")),
+        ((1, 1), (1, 1), ()),
+        ((1, 2), (2, 1), ()),
+    ],
+)
 def test_orders_by_hand(first, second, before):
     """(2, 2): sum 4, squares 8; (3, 0): sum 3, squares 9; (3, 3): 6, 18; (1, 4): 5, 17."""
     assert {n for n in NORMS if precedes(first, second, n)} == set(before)
@@ -149,6 +164,7 @@ def test_names_by_place():
 def test_a_criterion_of_ones_own(roof):
     def length(p, q, left, right):
         return np.hypot(*(q - p)[:, :2].T)
+
     mine = criteria.register(criteria.Criterion("length", "edge", length))
     try:
         assert criteria.get("length") is mine is criteria.get(mine)

@@ -1,4 +1,5 @@
 """Nodes along a curved boundary: equidistribution, the area that is lost, meshes of the domain."""
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -49,7 +50,7 @@ def polygon_area(nodes):
 
 
 def lost(curve, n, density):
-    return n ** 2 * curves.deviation(curve, curves.boundary_parameters(curve, n, density))
+    return n**2 * curves.deviation(curve, curves.boundary_parameters(curve, n, density))
 
 
 # -- equidistribution -------------------------------------------------------------------------
@@ -80,7 +81,9 @@ def test_even_shares_the_nodes_out():
     by_length = curves.boundary_parameters(square, 16, "length")
     assert by_length == pytest.approx(np.arange(16) / 16, abs=1e-4)  # corners are rounded
     assert curves.boundary_parameters(square, 16, even=1.0) == pytest.approx(by_length)
-    pure, mixed = (np.diff(curves.boundary_parameters(square, 16, even=e), append=1).max() for e in (0.0, 0.5))
+    pure, mixed = (
+        np.diff(curves.boundary_parameters(square, 16, even=e), append=1).max() for e in (0.0, 0.5)
+    )
     assert pure == pytest.approx(1 / 4, rel=0.01) and mixed < 0.13  # half the nodes are 1/8 apart
 
 
@@ -97,8 +100,10 @@ def test_on_a_circle_all_densities_are_alike(density):
 
 def test_another_speed_along_the_curve_moves_no_node():
     """Curvature and arc length belong to the curve, not to its parameter."""
+
     def warped(t):
         return ellipse(t + 0.1 * np.sin(2 * np.pi * t))
+
     for density in DENSITIES[:2]:
         nodes = [np.column_stack(c(curves.boundary_parameters(c, 12, density))) for c in (ellipse, warped)]
         assert np.allclose(*nodes, atol=1e-4)
@@ -110,18 +115,20 @@ def test_another_speed_along_the_curve_moves_no_node():
 @pytest.mark.parametrize("curve, area", [(circle, np.pi), (ellipse, np.pi * A * B)])
 def test_the_deviation_of_a_convex_domain_is_the_area_outside_the_polygon(curve, area):
     t = curves.boundary_parameters(curve, 11, "length")
-    assert curves.deviation(curve, t) == pytest.approx(area - polygon_area(np.column_stack(curve(t))), rel=1e-4)
+    assert curves.deviation(curve, t) == pytest.approx(
+        area - polygon_area(np.column_stack(curve(t))), rel=1e-4
+    )
 
 
 def test_slivers_on_both_sides_do_not_cancel():
     t = curves.boundary_parameters(trefoil, 30, "length")
-    between = np.pi * (1 + 0.35 ** 2 / 2) - polygon_area(np.column_stack(trefoil(t)))
+    between = np.pi * (1 + 0.35**2 / 2) - polygon_area(np.column_stack(trefoil(t)))
     assert curves.deviation(trefoil, t) > abs(between) * 1.5
 
 
 def test_the_best_polygons_of_an_ellipse():
     """n^2 times the area lost tends to L^3/12, L the affine length 2 pi (a b)^(1/3): 2 pi^3 a b / 3."""
-    assert lost(ellipse, 256, "curvature") == pytest.approx(2 * np.pi ** 3 * A * B / 3, rel=1e-3)
+    assert lost(ellipse, 256, "curvature") == pytest.approx(2 * np.pi**3 * A * B / 3, rel=1e-3)
 
 
 def test_equal_arcs_of_a_convex_curve():
@@ -145,13 +152,17 @@ def test_four_times_as_many_nodes_lose_a_sixteenth(curve):
 
 def test_data_on_the_boundary_decide():
     """Linear interpolation along the curve is better between nodes placed by u than between even ones."""
+
     def u(x, y):
         return np.tanh(9 * (y - x))
 
     def error(t):
         """L2, along the circle."""
         s = np.linspace(0, 1, 20_001)
-        return np.sqrt(np.mean((u(*circle(s)) - np.interp(s, np.append(t, 1), u(*circle(np.append(t, 1))))) ** 2))
+        return np.sqrt(
+            np.mean((u(*circle(s)) - np.interp(s, np.append(t, 1), u(*circle(np.append(t, 1))))) ** 2)
+        )
+
     by_data, even = (error(curves.boundary_parameters(circle, 48, density)) for density in (u, "length"))
     assert by_data < even / 3
 
@@ -183,39 +194,68 @@ def test_inner_nodes_keep_their_distance():
 # -- what is refused --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("call, message", [
-    (lambda: curves.equidistributed([1, -1], 2),
-     "range: the density of sample 1 is -1.0; give finite numbers of at least 0"),
-    (lambda: curves.equidistributed([0, 0], 2),
-     "range: the density is 0 everywhere, so that no place is better than another; use density=\"length\""),
-    (lambda: curves.equidistributed([1, 1], 0), "range: n is 0; give a whole number from 1"),
-    (lambda: curves.boundary_parameters(circle, 2), "range: n is 2; give a whole number from 3"),
-    (lambda: curves.boundary_parameters(circle, 9, "curvatur"),
-     "unknown: density 'curvatur' is not known; did you mean 'curvature'? "
-     "(known: 'curvature', 'length', 'parameter')"),
-    (lambda: curves.boundary_parameters(circle, 9, even=2), "range: even is 2; give a share from 0 to 1"),
-    (lambda: curves.boundary_parameters(circle, 9, lambda x, y: x / 0 * 0),
-     "finite: the function must return one finite value for each point of the curve"),
-    (lambda: curves.boundary_parameters(lambda t: (t, t), 9),
-     "closed: the curve is at (0, 0) for t = 0 and at (1, 1) for t = 1; give a closed one"),
-    (lambda: curves.boundary_parameters(lambda t: (t, np.nan * t), 9),
-     "finite: the curve must return finite x and y for every t from 0 to 1"),
-    (lambda: curves.boundary_parameters("circle", 9),
-     "type: the curve is a str; give a function of t that returns x and y"),
-    (lambda: curves.deviation(circle, [0, 0.5]),
-     "shape: parameters have shape (2,); give one number for each of at least 3 nodes"),
-    (lambda: curves.deviation(circle, [0, 0.5, 0.25]),
-     "order: parameter 2 is 0.25, which does not follow 0.5; give them ascending, within one period"),
-    (lambda: curves.domain_mesh(circle, [0, 0.5, 1]),
-     "order: parameter 0 is 0, which does not follow 1; give them ascending, within one period"),
-    (lambda: curves.domain_mesh(lambda t: circle(-t), [0, 0.3, 0.6]),
-     "orientation: the curve goes round clockwise; reverse its parameter"),
-    (lambda: curves.domain_mesh(circle, [0, 0.3, 0.6], spacing=0),
-     "range: spacing is 0; give a finite length above 0"),
-    (lambda: curves.domain_mesh(limacon, np.arange(16) / 16),
-     "boundary: boundary nodes 5 and 6 are not joined in the Delaunay mesh; "
-     "give more boundary nodes or a larger spacing"),
-])
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (
+            lambda: curves.equidistributed([1, -1], 2),
+            "range: the density of sample 1 is -1.0; give finite numbers of at least 0",
+        ),
+        (
+            lambda: curves.equidistributed([0, 0], 2),
+            'range: the density is 0 everywhere, so that no place is better than another; use density="length"',
+        ),
+        (lambda: curves.equidistributed([1, 1], 0), "range: n is 0; give a whole number of at least 1"),
+        (lambda: curves.boundary_parameters(circle, 2), "range: n is 2; give a whole number of at least 3"),
+        (
+            lambda: curves.boundary_parameters(circle, 9, "curvatur"),
+            "unknown: density 'curvatur' is not known; did you mean 'curvature'? "
+            "(known: 'curvature', 'length', 'parameter')",
+        ),
+        (lambda: curves.boundary_parameters(circle, 9, even=2), "range: even is 2; give a share from 0 to 1"),
+        (
+            lambda: curves.boundary_parameters(circle, 9, lambda x, y: x / 0 * 0),
+            "finite: the function must return one finite value for each point of the curve",
+        ),
+        (
+            lambda: curves.boundary_parameters(lambda t: (t, t), 9),
+            "closed: the curve is at (0, 0) for t = 0 and at (1, 1) for t = 1; give a closed one",
+        ),
+        (
+            lambda: curves.boundary_parameters(lambda t: (t, np.nan * t), 9),
+            "finite: the curve must return finite x and y for every t from 0 to 1",
+        ),
+        (
+            lambda: curves.boundary_parameters("circle", 9),
+            "type: the curve is a str; give a function of t that returns x and y",
+        ),
+        (
+            lambda: curves.deviation(circle, [0, 0.5]),
+            "shape: parameters have shape (2,); give one number for each of at least 3 nodes",
+        ),
+        (
+            lambda: curves.deviation(circle, [0, 0.5, 0.25]),
+            "order: parameter 2 is 0.25, which does not follow 0.5; give them ascending, within one period",
+        ),
+        (
+            lambda: curves.domain_mesh(circle, [0, 0.5, 1]),
+            "order: parameter 0 is 0, which does not follow 1; give them ascending, within one period",
+        ),
+        (
+            lambda: curves.domain_mesh(lambda t: circle(-t), [0, 0.3, 0.6]),
+            "orientation: the curve goes round clockwise; reverse its parameter",
+        ),
+        (
+            lambda: curves.domain_mesh(circle, [0, 0.3, 0.6], spacing=0),
+            "range: spacing is 0; give a finite length above 0",
+        ),
+        (
+            lambda: curves.domain_mesh(limacon, np.arange(16) / 16),
+            "boundary: boundary nodes 5 and 6 are not joined in the Delaunay mesh; "
+            "give more boundary nodes or a larger spacing",
+        ),
+    ],
+)
 def test_messages(call, message):
     with np.errstate(all="ignore"), pytest.raises(MeshError) as error:
         call()

@@ -1,4 +1,5 @@
 """Many orders on a Dask cluster, through joblib, against the same on one core."""
+
 import os
 import time
 
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 
 from meshlib import local_optima, problems
-from meshlib.optima import shared
+from meshlib.optima.many_orders import shared
 
 distributed = pytest.importorskip("distributed")
 
@@ -15,8 +16,12 @@ distributed = pytest.importorskip("distributed")
 @pytest.fixture(scope="module")
 def cluster():
     """Two processes on this machine; yields what joblib is told."""
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True,
-                                  dashboard_address=None) as cluster, distributed.Client(cluster):
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster),
+    ):
         yield {"backend": "dask"}
 
 

@@ -1,14 +1,15 @@
 """Delaunay meshes: the empty circle, the tie rule, and hard sets of nodes."""
+
 from fractions import Fraction
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
-
-from meshlib import Mesh, delaunay, problems
-from meshlib.quality import angles
 from strategies import lattice_nodes
 from support import all_meshes, as_set, exact_circle, hull_area, is_delaunay, lattice, polygon, shuffled
+
+from meshlib import Mesh, delaunay, problems
+from meshlib.mesh.quality import angles
 
 
 def fan(n):
@@ -35,7 +36,7 @@ def test_no_circle_has_a_node_inside(nodes):
 
 
 @settings(max_examples=100)
-@given(lattice_nodes(most=20, scales=(1.0, 0.5, 2.0 ** -30, 2.0 ** 20)))
+@given(lattice_nodes(most=20, scales=(1.0, 0.5, 2.0**-30, 2.0**20)))
 def test_the_convex_hull_is_filled(nodes):
     """On a lattice of exact numbers the hull has no room for rounding."""
     assert exact_area(delaunay(nodes)) == hull_area(nodes)
@@ -62,9 +63,27 @@ def _gives_way(mesh):
     return False
 
 
-@pytest.mark.parametrize("points", [
-    [[5, 0], [4, 3], [3, 4], [0, 5], [-3, 4], [-4, 3], [-5, 0], [-4, -3], [-3, -4], [0, -5], [3, -4], [4, -3]],
-    [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 0], [3, 0], [3, 1], [0, 1]]])
+@pytest.mark.parametrize(
+    "points",
+    [
+        [
+            [5, 0],
+            [4, 3],
+            [3, 4],
+            [0, 5],
+            [-3, 4],
+            [-4, 3],
+            [-5, 0],
+            [-4, -3],
+            [-3, -4],
+            [0, -5],
+            [3, -4],
+            [4, -3],
+        ],
+        [[0, 0], [1, 0], [1, 1], [0, 1]],
+        [[0, 0], [3, 0], [3, 1], [0, 1]],
+    ],
+)
 def test_a_cocircular_polygon_is_a_fan_from_its_first_node(points):
     for shift in range(len(points)):
         nodes = np.roll(points, shift, axis=0)
@@ -120,7 +139,9 @@ def test_a_large_turned_lattice():
     assert np.degrees(angles(mesh.corners)).min() == pytest.approx(45)
 
 
-@pytest.mark.parametrize("convert", [list, np.float32, np.asfortranarray, lambda a: np.repeat(a, 2, axis=0)[::2]])
+@pytest.mark.parametrize(
+    "convert", [list, np.float32, np.asfortranarray, lambda a: np.repeat(a, 2, axis=0)[::2]]
+)
 def test_any_array_like_is_taken(convert):
     nodes = np.array([[0, 0], [2, 0], [3, 2], [1, 3]], dtype=int)
     assert delaunay(convert(nodes)).equals(delaunay(nodes.astype(float)))
@@ -153,8 +174,9 @@ def _is_tied(mesh, e):
 @pytest.mark.parametrize("nodes", [lattice(2, 2), polygon(7), lattice(5, 1)])
 def test_delaunay_does_not_depend_on_where_flips_start(nodes, rng):
     """Flipping a shuffled mesh to Delaunay gives the mesh that Qhull starts from."""
-    from meshlib.delaunay import _flipped_to_delaunay
-    from meshlib.topology import canonical
+    from meshlib.mesh.delaunay import _flipped_to_delaunay
+    from meshlib.mesh.topology import canonical
+
     expected = delaunay(nodes).elements
     for _ in range(5):
         start = shuffled(delaunay(nodes), rng)

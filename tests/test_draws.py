@@ -1,10 +1,11 @@
 """Draws: first values as facts, so that no version of NumPy can change them unseen."""
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshlib.draws import Draws
+from meshlib.support.random_numbers import Draws
 
 # The first 64 random bits of PCG64(1), and the 53 uppermost of them divided by 2^53.
 RAW = [9441442522235856127, 17532960557476522086, 2659275481604167885]
@@ -30,7 +31,7 @@ def of_bits(bits):
 
 def test_first_values():
     assert np.random.PCG64(1).random_raw(3).tolist() == RAW
-    assert Draws(1).uniform(3).tolist() == UNIFORM == [(bits >> 11) / 2 ** 53 for bits in RAW]
+    assert Draws(1).uniform(3).tolist() == UNIFORM == [(bits >> 11) / 2**53 for bits in RAW]
     assert Draws(1).exponential(3) == pytest.approx(EXPONENTIAL, rel=1e-15)
     assert Draws(1).indices(10, 8).tolist() == [5, 9, 1, 9, 3, 4, 8, 4]
     assert Draws([3, 4]).indices(10, 8).tolist() == [8, 4, 1, 1, 5, 7, 1, 7]
@@ -46,15 +47,15 @@ def test_one_stream_for_all():
 
 def test_the_least_and_the_largest():
     """All bits 0 give 0; all bits 1 give 1 - 2^-53, and its exponential 53 log 2."""
-    low, high = of_bits(0), of_bits(2 ** 64 - 1)
+    low, high = of_bits(0), of_bits(2**64 - 1)
     assert low.uniform(1) == low.exponential(1) == low.indices(7, 1) == 0
-    assert high.uniform(1) == 1 - 2.0 ** -53 < 1
+    assert high.uniform(1) == 1 - 2.0**-53 < 1
     assert high.exponential(1) == pytest.approx(53 * np.log(2))
 
 
-@given(st.integers(1, 2 ** 31))
+@given(st.integers(1, 2**31))
 def test_no_index_is_too_large(count):
-    assert of_bits(2 ** 64 - 1).indices(count, 1) == count - 1
+    assert of_bits(2**64 - 1).indices(count, 1) == count - 1
 
 
 def test_as_likely_as_they_should_be():

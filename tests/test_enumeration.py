@@ -1,9 +1,10 @@
 """All triangulations of small sets of nodes: published counts, and theorems about the best."""
+
 import numpy as np
 import pytest
+from support import Flips, all_meshes, as_set, is_delaunay, lattice, polygon, shuffled
 
 from meshlib import Interpolant, delaunay
-from support import Flips, all_meshes, as_set, is_delaunay, lattice, polygon, shuffled
 
 CATALAN = {3: 1, 4: 2, 5: 5, 6: 14, 7: 42, 8: 132, 9: 429, 10: 1430}
 STRIPS = {1: 2, 2: 6, 3: 20, 4: 70}  # 1 x n unit squares: binomial(2n, n)
@@ -80,7 +81,8 @@ def test_no_random_flips_lower_the_energy(rng):
 @pytest.mark.parametrize("seed", range(3))
 def test_delaunay_is_the_l2_best_mesh_for_the_paraboloid(seed):
     def u(x, y):
-        return x ** 2 + y ** 2
+        return x**2 + y**2
+
     meshes = all_meshes(delaunay(generic(seed)))
     errors = [Interpolant(m, u).l2_error(u, rule="exact") for m in meshes]
     assert meshes[np.argmin(errors)].equals(delaunay(generic(seed)))
@@ -95,7 +97,8 @@ def test_a_stretched_delaunay_mesh_is_best_for_any_convex_quadratic(seed):
     nodes = generic(seed)
 
     def u(x, y):
-        return (h[0, 0] * x ** 2 + 2 * h[0, 1] * x * y + h[1, 1] * y ** 2) / 2
+        return (h[0, 0] * x**2 + 2 * h[0, 1] * x * y + h[1, 1] * y**2) / 2
+
     meshes = all_meshes(delaunay(nodes))
     errors = [Interpolant(m, u).l2_error(u, rule="exact") for m in meshes]
     stretched = delaunay(nodes @ lower)

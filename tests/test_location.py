@@ -1,14 +1,17 @@
 """Who contains a point: compiled search over strips against arrays, one by one, and against all elements."""
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Interpolant, Mesh, delaunay, location, predicates, strips
-from meshlib.kernels import shapes
-from meshlib.kernels.backend import readable
 from strategies import meshes, problems_of
 from support import lattice
+
+from meshlib import Interpolant, Mesh, delaunay
+from meshlib.geometry import predicates
+from meshlib.interpolation import locate_by_buckets, locate_by_strips
+from meshlib.kernels import element_shapes
+from meshlib.kernels.backend import readable
 
 
 def slow(mesh, points):
@@ -16,9 +19,9 @@ def slow(mesh, points):
     found = []
     flat = predicates.nearly_flat(mesh.corners)
     for p in points:
-        depth = location.barycentric(mesh.corners, p[None]).min(axis=1)
-        depth[flat & (depth > -location.INSIDE)] = -location.INSIDE
-        inside = depth >= -location.INSIDE
+        depth = locate_by_buckets.barycentric(mesh.corners, p[None]).min(axis=1)
+        depth[flat & (depth > -locate_by_buckets.INSIDE)] = -locate_by_buckets.INSIDE
+        inside = depth >= -locate_by_buckets.INSIDE
         best = np.where(inside, depth, -np.inf).argmax()
         found.append(best if inside[best] else -1)
     return found
@@ -34,12 +37,12 @@ def points_around(mesh, seed, count=40):
 
 
 @settings(max_examples=100)
-@given(meshes(scales=(1.0, 0.1, 1 / 3, 2.0 ** -30, 1e6)), st.integers(0, 999))
+@given(meshes(scales=(1.0, 0.1, 1 / 3, 2.0**-30, 1e6)), st.integers(0, 999))
 def test_all_ways_choose_the_same_element(mesh, seed):
     points = points_around(mesh, seed)
     box = ((points >= mesh.nodes.min(axis=0)) & (points <= mesh.nodes.max(axis=0))).all(axis=1)
-    found = strips.Strips(mesh, points).elements()
-    assert found.tolist() == location.by_buckets(mesh, points).tolist()
+    found = locate_by_strips.Strips(mesh, points).elements()
+    assert found.tolist() == locate_by_buckets.by_buckets(mesh, points).tolist()
     assert found[box].tolist() == slow(mesh, points[box])
     assert (found[~box] == -1).all()
 
@@ -49,7 +52,10 @@ def test_all_ways_choose_the_same_element(mesh, seed):
 def test_values_in_strips_are_those_in_arrays(problem, seed):
     mesh, values = problem
     points = points_around(mesh, seed)
-    found, expected = strips.Strips(mesh, points).values(values), Interpolant(mesh, values)(*points.T)
+    found, expected = (
+        locate_by_strips.Strips(mesh, points).values(values),
+        Interpolant(mesh, values)(*points.T),
+    )
     assert np.array_equal(np.isnan(found), np.isnan(expected))
     assert np.nanmax(np.abs(found - expected), initial=0) <= 1e-12 * (np.abs(values).max() or 1)
 
@@ -62,7 +68,9 @@ def test_flat_is_what_the_predicate_says(mesh, lift):
     nodes[::2, 2] = nodes[::2, :2].mean(axis=1) * (1 + lift)
     unit = float(np.abs(nodes).max())
     each = readable(np.arange(3 * len(nodes)).reshape(-1, 3))
-    found = [shapes.is_flat(readable(nodes), *each[3 * t:3 * t + 3], unit) for t in range(len(nodes))]
+    found = [
+        element_shapes.is_flat(readable(nodes), *each[3 * t : 3 * t + 3], unit) for t in range(len(nodes))
+    ]
     assert found == predicates.nearly_flat(nodes).tolist()
 
 
@@ -73,8 +81,8 @@ def test_long_elements_between_two_diagonals(shift):
     nodes = np.concatenate([np.column_stack([step, step]), np.column_stack([step + 50, step - 50])]) + shift
     mesh = delaunay(nodes)
     points = mesh.corners.mean(axis=1)
-    assert strips.Strips(mesh, points).elements().tolist() == list(range(mesh.n_elements))
-    assert location.by_buckets(mesh, points).tolist() == list(range(mesh.n_elements))
+    assert locate_by_strips.Strips(mesh, points).elements().tolist() == list(range(mesh.n_elements))
+    assert locate_by_buckets.by_buckets(mesh, points).tolist() == list(range(mesh.n_elements))
 
 
 def test_many_slivers_share_few_cells():
@@ -83,13 +91,13 @@ def test_many_slivers_share_few_cells():
     nodes = np.concatenate([line, line + [2000, -2000]])
     elements = [t for n in range(1000) for t in ([n, n + 1001, n + 1], [n + 1, n + 1001, n + 1002])]
     mesh = Mesh._trusted(nodes, elements)
-    buckets = location._Buckets(mesh)
-    assert len(buckets.elements) <= location.CELLS_OF_AN_ELEMENT * mesh.n_elements
+    buckets = locate_by_buckets._Buckets(mesh)
+    assert len(buckets.elements) <= locate_by_buckets.CELLS_OF_AN_ELEMENT * mesh.n_elements
 
 
 def test_crowded_points_have_narrow_strips(rng):
     points = rng.random((5000, 2)) ** 4
-    sorted_in = strips.Strips(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]), points)
+    sorted_in = locate_by_strips.Strips(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]), points)
     widths = np.diff(sorted_in.edge[:-1])
     assert sorted_in.size == 100 and len(widths) == 49 and widths[0] < 1e-3 < 0.05 < widths[-1]
     assert np.array_equal(np.sort(sorted_in.order), np.arange(5000))
@@ -98,17 +106,17 @@ def test_crowded_points_have_narrow_strips(rng):
 
 
 def test_no_points_and_points_that_are_none(frame):
-    assert strips.Strips(frame, np.empty((0, 2))).elements().tolist() == []
+    assert locate_by_strips.Strips(frame, np.empty((0, 2))).elements().tolist() == []
     none = np.array([[np.nan, 1], [np.inf, 0], [1.5, 1.5], [9, 9], [0.5, 0.25]])
-    assert strips.Strips(frame, none).elements().tolist()[:4] == [-1] * 4
-    assert np.isnan(strips.Strips(frame, none).values(np.ones(16))).tolist() == [True] * 4 + [False]
+    assert locate_by_strips.Strips(frame, none).elements().tolist()[:4] == [-1] * 4
+    assert np.isnan(locate_by_strips.Strips(frame, none).values(np.ones(16))).tolist() == [True] * 4 + [False]
 
 
 def test_many_points_on_a_lattice_of_many_elements():
     """A point in the middle of a cell lies on its diagonal: the first of the two elements has it."""
     mesh = delaunay(lattice(120, 120))
     points = lattice(119, 119) + 0.5
-    found = location.located(mesh, points)
-    depth = location.barycentric(mesh.corners[found], points).min(axis=1)
+    found = locate_by_buckets.located(mesh, points)
+    depth = locate_by_buckets.barycentric(mesh.corners[found], points).min(axis=1)
     assert np.array_equal(depth, np.zeros(len(points)))
-    assert np.array_equal(found, location.by_buckets(mesh, points))
+    assert np.array_equal(found, locate_by_buckets.by_buckets(mesh, points))

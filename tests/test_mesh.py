@@ -1,16 +1,26 @@
 """The mesh and all that is derived from its two arrays: facts that can be counted by hand."""
+
 import copy
 import dataclasses
 import pickle
 
 import numpy as np
 import pytest
-
-from meshlib import Mesh, MeshError, delaunay, topology
 from support import lattice
 
-DERIVED = ("edges", "element_edges", "edge_elements", "neighbours", "boundary",
-           "boundary_nodes", "corners", "areas")
+from meshlib import Mesh, MeshError, delaunay
+from meshlib.mesh import topology
+
+DERIVED = (
+    "edges",
+    "element_edges",
+    "edge_elements",
+    "neighbours",
+    "boundary",
+    "boundary_nodes",
+    "corners",
+    "areas",
+)
 
 
 def test_two_elements(square):
@@ -95,7 +105,7 @@ def test_edge_numbers_of_all_edges(start):
     assert start.edge_numbers(np.empty((0, 2), dtype=int)).shape == (0,)
 
 
-@pytest.mark.parametrize("pair", [(1, 3), (0, 0), (0, 6), (-1, 1), (2, 2 ** 40)])
+@pytest.mark.parametrize("pair", [(1, 3), (0, 0), (0, 6), (-1, 1), (2, 2**40)])
 def test_edge_numbers_refuses_what_is_no_edge(square, pair):
     """(0, 6) would be (1, 2) if numbers were folded without a look: 0*4 + 6 = 1*4 + 2."""
     low, high = sorted(pair)
@@ -104,12 +114,15 @@ def test_edge_numbers_refuses_what_is_no_edge(square, pair):
     assert str(error.value) == f"edge: nodes {low} and {high} are not joined by an edge"
 
 
-@pytest.mark.parametrize("pairs, message", [
-    ([0, 1, 2], "shape: pairs have shape (3,); give an (m, 2) array of node numbers"),
-    ([[0, 1, 2]], "shape: pairs have shape (1, 3); give an (m, 2) array of node numbers"),
-    ([[0.0, 1.0]], "dtype: pairs have dtype float64; give whole numbers"),
-    ([[0, 1], [2]], "shape: the rows of pairs differ in length; give a regular array"),
-])
+@pytest.mark.parametrize(
+    "pairs, message",
+    [
+        ([0, 1, 2], "shape: pairs have shape (3,); give an (m, 2) array of node numbers"),
+        ([[0, 1, 2]], "shape: pairs have shape (1, 3); give an (m, 2) array of node numbers"),
+        ([[0.0, 1.0]], "dtype: pairs have dtype float64; give whole numbers"),
+        ([[0, 1], [2]], "shape: the rows of pairs differ in length; give a regular array"),
+    ],
+)
 def test_edge_numbers_refuses_what_is_no_list_of_pairs(square, pairs, message):
     with pytest.raises(MeshError) as error:
         square.edge_numbers(pairs)
@@ -146,10 +159,19 @@ def test_a_copy_is_equal_and_frozen_too(square, copied):
     assert not other.nodes.flags.writeable and not other.elements.flags.writeable
 
 
-@pytest.mark.parametrize("array", [
-    lambda a: a.tolist(), lambda a: a.astype(np.float32), lambda a: a.astype(int),
-    lambda a: np.asfortranarray(a), lambda a: np.repeat(a, 2, axis=0)[::2],
-    lambda a: np.hstack([a, a])[:, :2], lambda a: a[::-1][::-1], lambda a: a.astype(">f8")])
+@pytest.mark.parametrize(
+    "array",
+    [
+        lambda a: a.tolist(),
+        lambda a: a.astype(np.float32),
+        lambda a: a.astype(int),
+        lambda a: np.asfortranarray(a),
+        lambda a: np.repeat(a, 2, axis=0)[::2],
+        lambda a: np.hstack([a, a])[:, :2],
+        lambda a: a[::-1][::-1],
+        lambda a: a.astype(">f8"),
+    ],
+)
 def test_any_array_like_is_taken(array):
     mesh = Mesh(array(lattice(1, 1)), np.array([[0, 1, 3], [0, 3, 2]], dtype=np.uint16)[:, ::1])
     assert mesh.validate().domain_area == 1.0
@@ -180,10 +202,12 @@ def test_the_three_arrays(square):
 
 def test_round_trip(start, rng):
     nodes, edges, elements = start.to_arrays()
-    for again in (Mesh.from_arrays(nodes, edges, elements),
-                  Mesh.from_arrays(nodes, edges[rng.permutation(len(edges))], elements),
-                  Mesh.from_arrays(nodes, edges[:, [1, 0, 2]], elements),
-                  Mesh.from_arrays(nodes.tolist(), edges.tolist(), elements.tolist())):
+    for again in (
+        Mesh.from_arrays(nodes, edges, elements),
+        Mesh.from_arrays(nodes, edges[rng.permutation(len(edges))], elements),
+        Mesh.from_arrays(nodes, edges[:, [1, 0, 2]], elements),
+        Mesh.from_arrays(nodes.tolist(), edges.tolist(), elements.tolist()),
+    ):
         assert again.equals(start)
         for mine, theirs in zip(again.to_arrays(), (nodes, edges, elements)):
             assert np.array_equal(mine, theirs)
@@ -205,21 +229,39 @@ def _changed(array, row, column, value):
     return array
 
 
-@pytest.mark.parametrize("change, message", [
-    (lambda n, e, t: (_changed(n, 2, 2, 0), e, t),
-     "marker: node 2 is marked 0 but lies on the boundary; mark 1 on the boundary and 0 inside"),
-    (lambda n, e, t: (n, _changed(e, 1, 2, 1), t),
-     "marker: edge 1 is marked 1 but lies inside; mark 1 on the boundary and 0 inside"),
-    (lambda n, e, t: (n, _changed(e, 1, 0, 1), t),
-     "edge: nodes 1 and 2 are given twice, in rows 1 and 3; keep one of them"),
-    (lambda n, e, t: (n, e[:-1], t), "edge: nodes 2 and 3 are joined by an edge that is not given; add it"),
-    (lambda n, e, t: (n, _changed(e, 1, slice(0, 2), (1, 3)), t),
-     "edge: nodes 1 and 3 are not joined by an edge"),
-    (lambda n, e, t: (n[:, :2], e, t),
-     "shape: nodes have shape (4, 2); give three columns, the third the boundary marker"),
-    (lambda n, e, t: (n, e[:, :2], t),
-     "shape: edges have shape (5, 2); give three columns, the third the boundary marker"),
-])
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (
+            lambda n, e, t: (_changed(n, 2, 2, 0), e, t),
+            "marker: node 2 is marked 0 but lies on the boundary; mark 1 on the boundary and 0 inside",
+        ),
+        (
+            lambda n, e, t: (n, _changed(e, 1, 2, 1), t),
+            "marker: edge 1 is marked 1 but lies inside; mark 1 on the boundary and 0 inside",
+        ),
+        (
+            lambda n, e, t: (n, _changed(e, 1, 0, 1), t),
+            "edge: nodes 1 and 2 are given twice, in rows 1 and 3; keep one of them",
+        ),
+        (
+            lambda n, e, t: (n, e[:-1], t),
+            "edge: nodes 2 and 3 are joined by an edge that is not given; add it",
+        ),
+        (
+            lambda n, e, t: (n, _changed(e, 1, slice(0, 2), (1, 3)), t),
+            "edge: nodes 1 and 3 are not joined by an edge",
+        ),
+        (
+            lambda n, e, t: (n[:, :2], e, t),
+            "shape: nodes have shape (4, 2); give three columns, the third the boundary marker",
+        ),
+        (
+            lambda n, e, t: (n, e[:, :2], t),
+            "shape: edges have shape (5, 2); give three columns, the third the boundary marker",
+        ),
+    ],
+)
 def test_wrong_arrays_are_refused(square, change, message):
     with pytest.raises(MeshError) as error:
         Mesh.from_arrays(*change(*square.to_arrays()))
@@ -229,8 +271,11 @@ def test_wrong_arrays_are_refused(square, change, message):
 def test_many_elements_are_ordered_as_few(rng, monkeypatch):
     """By their nodes from the smallest on, also where two elements share their first two nodes."""
     mesh = delaunay(rng.random((50, 2)))
-    for elements in (rng.permutation(mesh.elements), np.vstack([mesh.elements, mesh.elements[:3]]),
-                     np.array([[0, 1, 3], [2, 0, 1], [0, 1, 2]])):
+    for elements in (
+        rng.permutation(mesh.elements),
+        np.vstack([mesh.elements, mesh.elements[:3]]),
+        np.array([[0, 1, 3], [2, 0, 1], [0, 1, 2]]),
+    ):
         few = topology.canonical(elements)
         assert few.tolist() == sorted(few.tolist())
         with monkeypatch.context() as patch:

@@ -1,14 +1,16 @@
 """Overlapping elements and hanging nodes: the search along the boundary against all pairs."""
+
 import numpy as np
 import pytest
 from hypothesis import assume, given, reject, settings
 from hypothesis import strategies as st
-
-from meshlib import Mesh, MeshError, boxes, delaunay, overlaps, validation
-from meshlib.predicates import orientation
-from meshlib.topology import HEADS, TAILS
 from strategies import WIDTH, lattice_nodes
 from support import lattice
+
+from meshlib import Mesh, MeshError, delaunay
+from meshlib.geometry.predicates import orientation
+from meshlib.mesh import box_tree, overlaps, validation
+from meshlib.mesh.topology import HEADS, TAILS
 
 CELLS = st.tuples(st.integers(0, 2 * WIDTH), st.integers(0, 2 * WIDTH))
 
@@ -81,8 +83,10 @@ def cleaned(nodes, elements):
 
 def united(first, second, shift=(0, 0)):
     """Both meshes, the second moved, as one."""
-    return Mesh(np.vstack([first.nodes, second.nodes + shift]),
-                np.vstack([first.elements, second.elements + first.n_nodes]))
+    return Mesh(
+        np.vstack([first.nodes, second.nodes + shift]),
+        np.vstack([first.elements, second.elements + first.n_nodes]),
+    )
 
 
 @settings(max_examples=120)
@@ -122,7 +126,7 @@ def test_elements_left_out_and_added(nodes, data):
 def test_lone_triangles(triangles):
     """Elements that share no nodes: every side is on the boundary."""
     corners = np.array(triangles, dtype=float)
-    corners += np.arange(len(corners))[:, None, None] * [2.0 ** -20, 2.0 ** -21]  # else many nodes coincide
+    corners += np.arange(len(corners))[:, None, None] * [2.0**-20, 2.0**-21]  # else many nodes coincide
     mesh = cleaned(corners.reshape(-1, 2), np.arange(3 * len(corners)))
     assert_agreement(mesh)
 
@@ -171,8 +175,8 @@ def test_batches_of_any_size_give_the_same(few, most, monkeypatch):
     hanging = Mesh([[2, -1], [4, -1], [3.5, 0]], [[0, 1, 2]])
     broken = [united(mesh, extra, shift) for extra in (small, hanging) for shift in ((0, 0), (3, 0))]
     expected = [verdict(wrong) for wrong in broken]
-    monkeypatch.setattr(boxes, "FEW_ROWS", few)
-    monkeypatch.setattr(boxes, "PAIRS_AT_ONCE", most)
+    monkeypatch.setattr(box_tree, "FEW_ROWS", few)
+    monkeypatch.setattr(box_tree, "PAIRS_AT_ONCE", most)
     mesh.validate()
     assert expected == [verdict(wrong) for wrong in broken]
     assert {clause for clause, _ in expected} == {"overlap", "hanging node"}
@@ -186,24 +190,32 @@ def test_any_unit_of_length_will_do(scale, square):
         assert verdict(shifted) == verdict(Mesh(shifted.nodes * scale, shifted.elements))
 
 
-@given(st.lists(st.tuples(CELLS, CELLS), min_size=1, max_size=60),
-       st.lists(st.tuples(CELLS, CELLS), min_size=1, max_size=60))
+@given(
+    st.lists(st.tuples(CELLS, CELLS), min_size=1, max_size=60),
+    st.lists(st.tuples(CELLS, CELLS), min_size=1, max_size=60),
+)
 def test_boxes_that_touch(first, second):
     """In each axis neither ends before the other begins."""
-    (low, high), others = (boxes.bounds(*np.swapaxes(s, 0, 1).astype(float)) for s in (first, second))
-    batches = boxes.BoxTree(*others).touching(low, high)
+    (low, high), others = (box_tree.bounds(*np.swapaxes(s, 0, 1).astype(float)) for s in (first, second))
+    batches = box_tree.BoxTree(*others).touching(low, high)
     found = [pair for i, j in batches for pair in zip(i.tolist(), j.tolist(), strict=True)]
     expected = np.argwhere((low[:, None] <= others[1]).all(axis=2) & (others[0] <= high[:, None]).all(axis=2))
     assert sorted(found) == list(map(tuple, expected.tolist()))
 
 
-@pytest.mark.parametrize("nodes, elements", [
-    (lattice(40, 40), None),  # few on the boundary
-    (np.column_stack([np.cos(np.arange(800) / 128), np.sin(np.arange(800) / 128)]),  # long slivers
-     [(0, k, k + 1) for k in range(1, 799)])])
+@pytest.mark.parametrize(
+    "nodes, elements",
+    [
+        (lattice(40, 40), None),  # few on the boundary
+        (
+            np.column_stack([np.cos(np.arange(800) / 128), np.sin(np.arange(800) / 128)]),  # long slivers
+            [(0, k, k + 1) for k in range(1, 799)],
+        ),
+    ],
+)
 def test_work_is_in_proportion_to_the_number_of_elements(nodes, elements):
     """Of half a million pairs some thousands are looked at."""
     mesh = delaunay(nodes) if elements is None else Mesh(nodes, elements)
     all_, edges = overlaps._Elements(mesh.corners), mesh.nodes[mesh.edges[mesh.boundary].T]
-    near = all_.near(np.arange(mesh.n_elements), boxes.BoxTree(*boxes.bounds(*edges)))
+    near = all_.near(np.arange(mesh.n_elements), box_tree.BoxTree(*box_tree.bounds(*edges)))
     assert sum(len(t) for t, _ in near) < 8 * mesh.n_elements

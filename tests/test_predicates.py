@@ -1,12 +1,13 @@
 """Exact signs, against rational arithmetic and against Shewchuk's own predicates."""
+
 import numpy as np
 import pytest
 import shewchuk
-
-from meshlib.predicates import incircle, orientation
 from support import exact_circle, exact_turn
 
-ULP = 2.0 ** -53  # spacing of the doubles just below 1
+from meshlib.geometry.predicates import incircle, orientation
+
+ULP = 2.0**-53  # spacing of the doubles just below 1
 
 
 def near_a_line(rng, n):

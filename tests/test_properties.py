@@ -1,30 +1,32 @@
 """Chains of operations on hard nodes: every mesh is valid, no input is changed, all is repeatable."""
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Interpolant, Mesh, criteria, delaunay, quality, refined, smoothed, swapped
-from meshlib.marking import MARKS
-from meshlib.norms import NORMS
-from meshlib.splitting import SPLITS
 from strategies import lattice_nodes, meshes, problems_of
 from support import as_set, exact_turn
+
+from meshlib import Interpolant, Mesh, criteria, delaunay, quality, refined, smoothed, swapped
+from meshlib.criteria.norms import NORMS
+from meshlib.refinement.marking import MARKS
+from meshlib.refinement.splitting import SPLITS
 
 STEPS = st.one_of(
     st.tuples(st.just("swap"), st.sampled_from(criteria.names()), st.sampled_from(NORMS)),
     st.tuples(st.just("refine"), st.sampled_from(MARKS), st.sampled_from(sorted(SPLITS))),
-    st.tuples(st.just("smooth"), st.sampled_from((1, 10)), st.sampled_from((0.0, 1.0))))
+    st.tuples(st.just("smooth"), st.sampled_from((1, 10)), st.sampled_from((0.0, 1.0))),
+)
 
 
 def step(mesh, values, kind, first, second):
     """The mesh and nodal values after one operation."""
     if kind == "swap":
-        return swapped(mesh, values, first, second, min_angle=1).mesh, values
+        return swapped(mesh, values, first, norm=second, min_angle=1).mesh, values
     if kind == "refine":
-        result = refined(mesh, values, fraction=0.3, mark=first, split=second)
+        result = refined(mesh, values, "abn", fraction=0.3, mark=first, split=second)
         return result.mesh, result.values
     springs = np.arange(mesh.n_edges) % 3 + second
-    return smoothed(mesh, springs, sweeps=first).mesh, values
+    return smoothed(mesh, springs, max_sweeps=first).mesh, values
 
 
 @settings(max_examples=100)
@@ -63,23 +65,29 @@ def test_every_element_is_counter_clockwise_in_rationals(mesh):
 
 
 @settings(max_examples=60)
-@given(lattice_nodes(most=12, scales=(1.0, 2.0 ** -20)), st.integers(0, 99))
+@given(lattice_nodes(most=12, scales=(1.0, 2.0**-20)), st.integers(0, 99))
 def test_the_order_of_nodes_changes_ties_only(nodes, seed):
     """Delaunay meshes that differ in ties alone have the same energy, the least (Rippa 1990)."""
     meshes_ = delaunay(nodes), delaunay(np.random.default_rng(seed).permutation(nodes))
-    gradients = [Interpolant(m, lambda x, y: np.sin(3 * x / nodes.max()) + (y / nodes.max()) ** 3).gradients
-                 for m in meshes_]
-    first, second = (m.areas @ (g ** 2).sum(axis=1) for m, g in zip(meshes_, gradients))
+    gradients = [
+        Interpolant(m, lambda x, y: np.sin(3 * x / nodes.max()) + (y / nodes.max()) ** 3).gradients
+        for m in meshes_
+    ]
+    first, second = (m.areas @ (g**2).sum(axis=1) for m, g in zip(meshes_, gradients))
     assert meshes_[0].counts == meshes_[1].counts
     assert np.isclose(first, second, rtol=1e-9)
 
 
 @settings(max_examples=60)
-@given(problems_of(scales=(1.0, 0.5)), st.sampled_from(("jnd", "dlp")), st.sampled_from(NORMS),
-       st.sampled_from((-4.0, 0.25, 1024.0)))
+@given(
+    problems_of(scales=(1.0, 0.5)),
+    st.sampled_from(("jnd", "dlp")),
+    st.sampled_from(NORMS),
+    st.sampled_from((-4.0, 0.25, 1024.0)),
+)
 def test_scaled_data_swap_alike(problem, name, norm, alpha):
     mesh, values = problem
-    plain, scaled = (swapped(mesh, v, name, norm) for v in (values, alpha * values))
+    plain, scaled = (swapped(mesh, v, name, norm=norm) for v in (values, alpha * values))
     assert as_set(plain.mesh) == as_set(scaled.mesh)
     assert np.isclose(scaled.cost_after, abs(alpha) * plain.cost_after, rtol=1e-12)
 

@@ -1,15 +1,27 @@
 """Maximum angle, skewness and aspect ratio: hand-made elements and identities."""
+
 import dataclasses
 import sys
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
-
-from meshlib import Mesh, MeshError, delaunay, problems, quality, refined, smoothed, swapped, uniformity, valence
-from meshlib.quality import angles
 from strategies import meshes
 from support import lattice
+
+from meshlib import (
+    Mesh,
+    MeshError,
+    delaunay,
+    problems,
+    quality,
+    refined,
+    smoothed,
+    swapped,
+    uniformity,
+    valence,
+)
+from meshlib.mesh.quality import MEASURES, angles
 
 HEIGHT = np.sqrt(3) / 2
 
@@ -49,7 +61,7 @@ def test_a_flat_element():
 
 
 @settings(max_examples=60)
-@given(meshes(scales=(1.0, 2.0 ** -30, 1e6)))  # no element is flat but for rounding
+@given(meshes(scales=(1.0, 2.0**-30, 1e6)))  # no element is flat but for rounding
 def test_identities(mesh):
     angle, q = angles(mesh.corners), quality(mesh)
     assert np.allclose(angle.sum(axis=1), np.pi)
@@ -72,19 +84,27 @@ def test_size_place_and_turn_do_not_matter(scale, rng):
 def test_batches_do_not_matter(rng, monkeypatch):
     mesh = delaunay(rng.random((50, 2)))
     expected = dataclasses.astuple(quality(mesh))
-    monkeypatch.setattr(sys.modules["meshlib.quality"], "AT_ONCE", 7)
+    monkeypatch.setattr(sys.modules["meshlib.mesh.quality"], "AT_ONCE", 7)
     assert np.array_equal(dataclasses.astuple(quality(mesh)), expected)
 
 
 def test_mean_max_and_table(square):
-    q = quality(Mesh([[0, 0], [1, 0], [0.5, HEIGHT], [1.5, HEIGHT], [2, 0]], [[0, 1, 2], [1, 3, 2], [1, 4, 3]]))
+    q = quality(
+        Mesh([[0, 0], [1, 0], [0.5, HEIGHT], [1.5, HEIGHT], [2, 0]], [[0, 1, 2], [1, 3, 2], [1, 4, 3]])
+    )
     assert q.mean["maximum_angle"] == pytest.approx(60) == q.max["maximum_angle"]
-    assert list(q.mean) == list(q.max) == ["maximum_angle", "skewness", "aspect_ratio"]
+    assert q.min["minimum_angle"] == pytest.approx(60) and q.worst["aspect_ratio"] == pytest.approx(1)
+    assert q.max["longest_edge"] == pytest.approx(1) == q.min["shortest_edge"]
+    assert list(q.mean) == list(q.max) == list(q.min) == list(q.worst) == list(MEASURES)
     assert str(quality(square)).splitlines() == [
-        "Measure             mean       max",
-        "Maximum angle    90.0000   90.0000",
-        "Skewness          0.3491    0.3491",
-        "Aspect ratio      0.8660    0.8660"]
+        "Measure              mean      worst",
+        "Minimum angle          45         45",
+        "Maximum angle          90         90",
+        "Skewness           0.3491     0.3491",
+        "Aspect ratio        0.866      0.866",
+        "Shortest edge           1          1",
+        "Longest edge        1.414      1.414",
+    ]
     with pytest.raises(dataclasses.FrozenInstanceError):
         q.skewness = None
 
@@ -104,7 +124,7 @@ def test_an_element_without_neighbours_is_uniform():
 
 
 @settings(max_examples=60)
-@given(meshes(scales=(1.0, 2.0 ** -30, 1e6)))
+@given(meshes(scales=(1.0, 2.0**-30, 1e6)))
 def test_uniformity_is_that_of_the_worst_neighbour(mesh):
     """The formula of the thesis, element by element; of two neighbours neither is below their ratio."""
     found, areas = uniformity(mesh), mesh.areas
@@ -132,7 +152,7 @@ def test_centroids_split_into_equal_parts():
 def test_the_longest_edge_halves():
     """Of equal right angled elements one pair is bisected at a time: ratios 1 and 2."""
     mesh = delaunay(lattice(6, 6))
-    new = refined(mesh, lambda x, y: x ** 2, fraction=0.1, split="longest-edge").mesh
+    new = refined(mesh, lambda x, y: x**2, "abn", fraction=0.1, split="longest-edge").mesh
     assert sorted(set(uniformity(new).round(9))) == [1.0, 2.0]
 
 
@@ -175,7 +195,10 @@ def test_centroids_double_the_valence():
 def test_the_mesh_must_be_valid(measure):
     with pytest.raises(MeshError) as error:
         measure([[0, 1, 2]])
-    assert str(error.value) == "type: a mesh is needed, this is a list; make a meshlib.Mesh or use meshlib.delaunay"
+    assert (
+        str(error.value)
+        == "type: a mesh is needed, this is a list; make a meshlib.Mesh or use meshlib.delaunay"
+    )
     with pytest.raises(MeshError) as error:
         measure(Mesh([[0, 0], [1, 0], [0, 1]], [[0, 2, 1]]))
     assert str(error.value) == "orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse its nodes"

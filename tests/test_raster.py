@@ -1,12 +1,13 @@
 """Values on grids, by rasterising elements, against evaluation point by point."""
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Interpolant, Mesh, MeshError, delaunay, problems
 from strategies import problems_of
 from support import lattice
+
+from meshlib import Interpolant, Mesh, MeshError, delaunay, problems
 
 
 def assert_like_points(u_h, nx, ny=None):
@@ -64,9 +65,13 @@ def test_slivers_do_not_decide_for_their_neighbours():
     assert np.abs(grid - (x[None, :] + y[:, None]))[known].max() < 1e-12
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ({"nx": 1}, "range: nx is 1; give a whole number from 2"),
-    ({"ny": 0}, "range: ny is 0; give a whole number from 2")])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        ({"nx": 1}, "range: nx is 1; give a whole number of at least 2"),
+        ({"ny": 0}, "range: ny is 0; give a whole number of at least 2"),
+    ],
+)
 def test_sizes_are_checked(arguments, message):
     with pytest.raises(MeshError) as error:
         Interpolant(problems.mesh("33"), problems.SR1).on_grid(**arguments)

@@ -1,4 +1,5 @@
 """The example of the README runs as it stands."""
+
 import re
 from pathlib import Path
 

@@ -1,13 +1,22 @@
 """The studies of sections 7.1, 7.2 and 7.5: what their tables and figures are made of."""
+
 import numpy as np
 import pytest
 
 from meshlib import Interpolant, combined, delaunay, problems, refined
-from meshlib.marking import MARKS
-from meshlib.quality import angles
-from meshlib.splitting import SPLITS
-from meshlib.thesis import boundaries, combining, splittings
-from meshlib.thesis.splittings import AIM, MOST_NODES, Rounds, rounds
+from meshlib.mesh.quality import angles
+from meshlib.refinement.marking import MARKS
+from meshlib.refinement.splitting import SPLITS
+from meshlib.thesis.studies import (
+    section_7_1_splittings as splittings,
+)
+from meshlib.thesis.studies import (
+    section_7_2_boundaries as boundaries,
+)
+from meshlib.thesis.studies import (
+    section_7_5_combining as combining,
+)
+from meshlib.thesis.studies.section_7_1_splittings import AIM, MOST_NODES, Rounds, rounds
 
 
 def rows(table):
@@ -32,9 +41,11 @@ def test_rounds_end_at_the_aim_or_at_the_limit(split):
 
 def test_the_number_needed_lies_on_a_line_between_two_rounds():
     """On a double logarithmic plot: 100 nodes at 4 %, 400 at 0.25 %, so 200 at 1 %."""
+
     class Sized:
         def __init__(self, n_nodes):
             self.n_nodes = n_nodes
+
     meshes = [Sized(n) for n in (10, 100, 400)]
     assert Rounds(meshes, np.array([2, 0.08, 0.005]), 1.0).needed == pytest.approx(200)
     assert np.isnan(Rounds(meshes, np.array([2, 0.08, 0.021]), 1.0).needed)
@@ -98,7 +109,8 @@ def test_the_tables_of_7_1(monkeypatch):
             assert float(cell.strip("()")) == pytest.approx(value, rel=6e-3)
     reasons = rows(splittings.table_reasons())
     assert [row[4] for row in reasons] == [
-        f"{rounds('SR1', split, 'element').mean_largest_angle:.0f}°" for split in SPLITS]
+        f"{rounds('SR1', split, 'element').mean_largest_angle:.0f}°" for split in SPLITS
+    ]
     kinks = [float(row[5].strip("°")) for row in reasons]
     assert kinks[1] > 179 and max(kinks[0], kinks[2]) < 15  # only where no edge is cut do they get steeper
 
@@ -117,7 +129,7 @@ def test_the_area_lost_tends_to_its_limit(name, density):
 def test_the_limits_in_closed_form():
     """Affine length cubed over 12, and for equal arcs of a convex curve pi l^2 / 6."""
     ellipse = boundaries.limits("ellipse")
-    assert ellipse["curvature"] == pytest.approx(2 * np.pi ** 3 * 4 / 3)
+    assert ellipse["curvature"] == pytest.approx(2 * np.pi**3 * 4 / 3)
     x, y = boundaries.ellipse(np.linspace(0, 1, 20_001))
     assert ellipse["length"] == pytest.approx(np.pi * np.hypot(np.diff(x), np.diff(y)).sum() ** 2 / 6)
     assert ellipse["parameter"] == pytest.approx(ellipse["curvature"])
@@ -131,8 +143,9 @@ def test_the_table_of_measures_knows_the_sum_of_valences():
 
 def test_the_table_of_areas_ends_with_the_limits():
     found = [float(row[-1]) for row in rows(boundaries.table_lost())]
-    assert found == pytest.approx([v for name in boundaries.CURVES for v in boundaries.limits(name).values()],
-                                  abs=6e-3)
+    assert found == pytest.approx(
+        [v for name in boundaries.CURVES for v in boundaries.limits(name).values()], abs=6e-3
+    )
 
 
 def test_the_error_along_the_boundary_tends_to_its_limit():
@@ -154,7 +167,8 @@ def test_the_table_of_the_cycle():
         ["left out", "swap around node 4", "2.86", "9.50", "7.68"],
         ["", "swap around node 5", "2.43", "7.68", "9.50"],
         ["counted", "swap around node 4", "1.82", "9.50", "7.68"],
-        ["", "swap around node 5", "2.68", "7.68", "5.00"]]
+        ["", "swap around node 5", "2.68", "7.68", "5.00"],
+    ]
 
 
 def test_the_table_of_errors(monkeypatch):
@@ -172,29 +186,39 @@ def test_the_table_of_gains(monkeypatch):
     found = rows(combining.table_gains())
     steps, errors = ([float(row[k]) for row in found] for k in (1, 3))
     assert steps == sorted(steps) and errors == sorted(errors, reverse=True)
-    assert all(n <= 10 ** power for n, power in zip(steps, (1, 2, 3)))
+    assert all(n <= 10**power for n, power in zip(steps, (1, 2, 3)))
 
 
 def test_in_turn_ends_where_neither_way_gains():
     mesh = combining.in_turn("SR2")
     assert np.degrees(angles(mesh.corners).min()) > 9.99
     for way in ("swap", "move"):
-        assert not len(combined(mesh, problems.SR2, ways=way, min_angle=combining.LIMIT).steps)
+        assert not len(combined(mesh, problems.SR2, ways=way, min_angle=combining.LIMIT).history)
 
 
 # -- figures --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("draw, panels", [
-    ("splittings.splittings_compared", 2), ("splittings.splittings_meshes", 3),
-    ("boundaries.boundaries_compared", 4), ("combining.combining_cycle", 3), ("combining.combining_compared", 6)])
+@pytest.mark.parametrize(
+    "draw, panels",
+    [
+        ("splittings.splittings_compared", 2),
+        ("splittings.splittings_meshes", 3),
+        ("boundaries.boundaries_compared", 4),
+        ("combining.combining_cycle", 3),
+        ("combining.combining_compared", 6),
+    ],
+)
 def test_figures_draw_something(draw, panels, monkeypatch):
     plt = pytest.importorskip("matplotlib.pyplot")
     import importlib
+
     module, name = draw.split(".")
     module = importlib.import_module(f"meshlib.thesis.figures.{module}")
     monkeypatch.setattr(splittings, "FUNCTIONS", ("SR1",))
-    figure = getattr(module, name)(*{"splittings_meshes": ["SR1"], "combining_compared": ["SR1"]}.get(name, []))
+    figure = getattr(module, name)(
+        *{"splittings_meshes": ["SR1"], "combining_compared": ["SR1"]}.get(name, [])
+    )
     assert plt.get_fignums() == [figure.number]
     assert len(figure.axes) == panels and all(ax.has_data() for ax in figure.axes)
     plt.close(figure)
@@ -204,6 +228,7 @@ def test_the_cycle_is_shown_step_by_step():
     """(a) and (c) are the same mesh; (b) has one edge that they do not have."""
     pytest.importorskip("matplotlib.pyplot")
     from meshlib.thesis.figures import combining as figures
+
     (first, second, third), _ = figures._meshes()
     assert first.equals(third)
     a, b = ({tuple(e) for e in mesh.edges.tolist()} for mesh in (first, second))

@@ -1,14 +1,15 @@
 """Marking and splitting against slow references, which know edges as pairs of nodes."""
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Mesh, criteria, delaunay, problems, refined
-from meshlib.marking import MARKS, TIED, TIES, averaged, marked
-from meshlib.topology import grouped, unique
 from strategies import problems_of
 from support import lattice
+
+from meshlib import Mesh, criteria, delaunay, problems, refined
+from meshlib.mesh.topology import grouped, unique
+from meshlib.refinement.marking import MARKS, TIED, TIES, averaged, marked
 
 FRACTIONS = (0.05, 0.3, 0.7, 1.0)
 
@@ -53,11 +54,16 @@ def red_green(mesh, chosen):
         middle[key(a, b)] = m
     leaves, ends = list(leaves.values()), []
     while any(red for *_, red in leaves):
-        ends += bisect({pair for nodes, _, red in leaves if red for pair in sides(nodes)}, middle,
-                       mesh.n_nodes + len(ends))
+        ends += bisect(
+            {pair for nodes, _, red in leaves if red for pair in sides(nodes)},
+            middle,
+            mesh.n_nodes + len(ends),
+        )
         parts = [(part, t) for nodes, t, red in leaves if red for part in in_four(nodes, middle)]
-        leaves = [(nodes, t, needs_red(nodes, middle))
-                  for nodes, t in [(nodes, t) for nodes, t, red in leaves if not red] + parts]
+        leaves = [
+            (nodes, t, needs_red(nodes, middle))
+            for nodes, t in [(nodes, t) for nodes, t, red in leaves if not red] + parts
+        ]
     return *closed(leaves, middle), ends
 
 
@@ -79,16 +85,19 @@ def closed(leaves, middle):
 
 
 @settings(max_examples=80)
-@given(problems_of(most=12, scales=(1.0,)), st.lists(st.sampled_from(FRACTIONS[:3]), min_size=1, max_size=4),
-       st.integers(0, 999))
+@given(
+    problems_of(most=12, scales=(1.0,)),
+    st.lists(st.sampled_from(FRACTIONS[:3]), min_size=1, max_size=4),
+    st.integers(0, 999),
+)
 def test_red_green_is_what_the_reference_makes(problem, fractions, seed):
     mesh, rng = problem[0], np.random.default_rng(seed)
     for fraction in fractions:
-        result = refined(mesh, rng.standard_normal(mesh.n_nodes), fraction=fraction)
+        result = refined(mesh, rng.standard_normal(mesh.n_nodes), "abn", fraction=fraction)
         elements, parents, green, ends = red_green(mesh, result.marked)
         assert result.mesh.elements.tolist() == elements and result.parents.tolist() == parents
         assert result.mesh.green.tolist() == green
-        assert np.array_equal(result.mesh.nodes[mesh.n_nodes:], mesh_means(result.mesh, ends))
+        assert np.array_equal(result.mesh.nodes[mesh.n_nodes :], mesh_means(result.mesh, ends))
         mesh = Mesh(result.mesh.nodes, elements, rng.permutation(result.mesh.green))
 
 
@@ -118,7 +127,7 @@ def test_a_long_chain_of_longest_edges():
     first = criteria.Criterion("first", "element", lambda a, b, c: (np.arange(n) == 0) * 1.0)
     result = refined(mesh, np.zeros(n + 2), first, fraction=1 / n, split="longest-edge")
     spokes = sorted(key(i, n + 1) for i in range(1, n + 1))
-    assert np.array_equal(result.mesh.nodes[n + 2:], mesh_means(result.mesh, spokes))
+    assert np.array_equal(result.mesh.nodes[n + 2 :], mesh_means(result.mesh, spokes))
     assert result.mesh.n_elements == n + 1 + (n - 1) * 2
 
 
@@ -145,8 +154,14 @@ def chosen_by(mesh, costs, mark, ties, target, order):
 
 
 @settings(max_examples=100)
-@given(problems_of(most=12), st.sampled_from(("element", "edge", "node")), st.sampled_from(TIES),
-       st.integers(1, 9), st.sampled_from((0, 1e-12, 5e-10, 2e-9)), st.integers(0, 999))
+@given(
+    problems_of(most=12),
+    st.sampled_from(("element", "edge", "node")),
+    st.sampled_from(TIES),
+    st.integers(1, 9),
+    st.sampled_from((0, 1e-12, 5e-10, 2e-9)),
+    st.integers(0, 999),
+)
 def test_marking_is_what_the_reference_marks(problem, mark, ties, target, noise, seed):
     mesh, rng = problem[0], np.random.default_rng(seed)
     target = min(target, mesh.n_elements)
@@ -156,7 +171,15 @@ def test_marking_is_what_the_reference_marks(problem, mark, ties, target, noise,
         costs[mesh.boundary] = 0
     inner = costs[~mesh.boundary] if mark == "edge" else costs
     order, criterion = rng.permutation(size), criteria.Criterion("given", mark, lambda *_: inner)
-    found = marked(mesh, np.zeros(mesh.n_nodes), criterion, target / mesh.n_elements, mark, ties, order)
+    found = marked(
+        mesh,
+        np.zeros(mesh.n_nodes),
+        criterion,
+        fraction=target / mesh.n_elements,
+        mark=mark,
+        ties=ties,
+        order=order,
+    )
     assert found.tolist() == chosen_by(mesh, costs.tolist(), mark, ties, target, order.tolist())
 
 
@@ -164,7 +187,7 @@ def test_marking_is_what_the_reference_marks(problem, mark, ties, target, noise,
 def test_all_equal_costs_are_marked_in_the_given_order(mark):
     mesh = problems.mesh("81")
     flat = criteria.Criterion("flat", "element", lambda a, b, c: np.ones(128))
-    first = marked(mesh, np.zeros(81), flat, 1 / 128, mark)
+    first = marked(mesh, np.zeros(81), flat, fraction=1 / 128, mark=mark)
     assert 0 in (first if mark in ("element", "density") else mesh.elements[first])
 
 

@@ -1,16 +1,17 @@
 """The local optimisation procedure: termination, limits, and its classical theorems."""
+
 import dataclasses
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from meshlib import Mesh, criteria, delaunay, problems, swapped
-from meshlib.norms import NORMS, measure
-from meshlib.quality import angles
 from strategies import problems_of
 from support import as_set, is_delaunay, lattice, shuffled
+
+from meshlib import Mesh, criteria, delaunay, problems, swapped
+from meshlib.criteria.norms import NORMS, measure
+from meshlib.mesh.quality import angles
 
 COSTS = st.sampled_from(criteria.names())
 TRACED = ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle")
@@ -20,11 +21,13 @@ TRACED = ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle")
 @pytest.mark.parametrize("norm", NORMS)
 def test_every_swap_lowers_its_local_cost_and_the_sum_falls(name, norm):
     mesh, u = shuffled(problems.mesh("33"), np.random.default_rng(1), unit=1 / 40), problems.functions["SR2"]
-    result = swapped(mesh, u, name, norm)
-    trace = result.trace
+    result = swapped(mesh, u, name, norm=norm)
+    trace = result.history
     accepted = trace[trace["accepted"]]
     assert len(accepted) == result.swaps > 0 and len(trace) == result.tried
-    assert trace["sweep"].max() == result.sweeps and not trace["accepted"][trace["sweep"] == result.sweeps].any()
+    assert (
+        trace["sweep"].max() == result.sweeps and not trace["accepted"][trace["sweep"] == result.sweeps].any()
+    )
     if norm != "lexicographic":
         assert (accepted["new"] < accepted["old"]).all()
     assert result.cost_after <= result.cost_before
@@ -37,8 +40,8 @@ def test_every_swap_lowers_its_local_cost_and_the_sum_falls(name, norm):
 def test_the_local_gains_add_up_to_the_fall_of_the_sum(name, norm):
     """A swap changes five edges (two elements) and nothing else."""
     mesh, u = problems.mesh("33"), problems.functions["SR1"]
-    result = swapped(mesh, u, name, norm)
-    accepted = result.trace[result.trace["accepted"]]
+    result = swapped(mesh, u, name, norm=norm)
+    accepted = result.history[result.history["accepted"]]
     before, after = (measure(criteria.costs(m, u, name), norm) for m in (mesh, result.mesh))
     assert before - after == pytest.approx((accepted["old"] - accepted["new"]).sum(), rel=1e-9)
 
@@ -47,17 +50,19 @@ def test_the_local_gains_add_up_to_the_fall_of_the_sum(name, norm):
 @pytest.mark.parametrize("norm", [1, 2])
 def test_replaying_the_trace_lowers_the_global_cost_at_every_swap(name, norm):
     mesh, u = problems.mesh("33"), problems.functions["SR3"]
-    trace = swapped(mesh, u, name, norm).trace
+    trace = swapped(mesh, u, name, norm=norm).history
     last, elements = measure(criteria.costs(mesh, u, name), norm), as_set(mesh)
     for row in trace[trace["accepted"]]:
         a, b, c, d = (int(row[k]) for k in "abcd")
-        old, new = ({tuple(sorted(t)) for t in pair} for pair in (((a, b, c), (a, b, d)), ((c, d, a), (c, d, b))))
+        old, new = (
+            {tuple(sorted(t)) for t in pair} for pair in (((a, b, c), (a, b, d)), ((c, d, a), (c, d, b)))
+        )
         assert old <= elements
         elements = (elements - old) | new
         now = measure(criteria.costs(_mesh(mesh.nodes, elements), u, name), norm)
         assert now < last
         last = now
-    assert elements == as_set(swapped(mesh, u, name, norm).mesh)
+    assert elements == as_set(swapped(mesh, u, name, norm=norm).mesh)
 
 
 def _mesh(nodes, elements):
@@ -67,13 +72,15 @@ def _mesh(nodes, elements):
     return Mesh(nodes, rows).validate()
 
 
-@pytest.mark.parametrize("problem, name", [
-    (p, n) for p in ("33", "81") for n in criteria.names() if (p, n) != ("81", "gradient-spread")])  # slow
+@pytest.mark.parametrize(
+    "problem, name",
+    [(p, n) for p in ("33", "81") for n in criteria.names() if (p, n) != ("81", "gradient-spread")],
+)  # slow
 @pytest.mark.parametrize("norm", NORMS)
 def test_the_result_is_locally_optimal(name, norm, problem):
     u = problems.functions["SR3"]
-    once = swapped(problems.mesh(problem), u, name, norm)
-    again = swapped(once.mesh, u, name, norm)
+    once = swapped(problems.mesh(problem), u, name, norm=norm)
+    again = swapped(once.mesh, u, name, norm=norm)
     assert (again.swaps, again.sweeps) == (0, 1)
     assert again.mesh is once.mesh
     assert again.cost_after == again.cost_before == pytest.approx(once.cost_after)
@@ -84,7 +91,7 @@ def test_the_result_is_locally_optimal(name, norm, problem):
 def test_affine_data_move_nothing(name, norm, rng):
     for mesh in (problems.mesh("33"), problems.mesh("81"), shuffled(delaunay(lattice(4, 3) * 0.1), rng)):
         for scale in (1.0, 1e-6, 1e6):
-            result = swapped(mesh, lambda x, y: scale * (3 - 2 * x + 5 * y), name, norm)
+            result = swapped(mesh, lambda x, y: scale * (3 - 2 * x + 5 * y), name, norm=norm)
             assert result.swaps == 0 and result.mesh is mesh
 
 
@@ -94,7 +101,7 @@ def test_valid_unchanged_and_optimal(problem, name, norm, seed):
     mesh, values = problem
     before = mesh.nodes.copy(), mesh.elements.copy(), values.copy()
     order = np.random.default_rng(seed).permutation(mesh.n_edges)
-    result = swapped(mesh, values, name, norm, order=order)
+    result = swapped(mesh, values, name, norm=norm, order=order)
     result.mesh.validate()
     assert result.mesh.counts == mesh.counts
     assert np.array_equal(result.mesh.boundary_nodes, mesh.boundary_nodes)
@@ -110,20 +117,20 @@ def test_valid_unchanged_and_optimal(problem, name, norm, seed):
 @pytest.mark.parametrize("limit", [5, 20, 40])
 def test_no_swap_creates_an_angle_below_the_limit(name, norm, limit):
     mesh, u = problems.mesh("33"), problems.functions["SR2"]
-    result = swapped(mesh, u, name, norm, min_angle=limit)
+    result = swapped(mesh, u, name, norm=norm, min_angle=limit)
     new = [t for t in result.mesh.elements if tuple(sorted(t)) not in as_set(mesh)]
     assert len(new) or limit == 40
     for t in new:
         assert np.degrees(angles(mesh.nodes[t][None])).min() >= limit * (1 - 1e-9)
     if limit > 5:  # the limit bites
-        assert len(new) < len(as_set(swapped(mesh, u, name, norm).mesh) - as_set(mesh))
+        assert len(new) < len(as_set(swapped(mesh, u, name, norm=norm).mesh) - as_set(mesh))
 
 
 @pytest.mark.parametrize("name, norm", [("jnd", 2), ("jnd", "lexicographic")])
 def test_no_swap_creates_an_element_below_the_area(name, norm):
     mesh, u = problems.mesh("33"), problems.functions["SR2"]
     limit = float(np.quantile(mesh.areas, 0.4))
-    result = swapped(mesh, u, name, norm, min_area=limit)
+    result = swapped(mesh, u, name, norm=norm, min_area=limit)
     new = np.array([tuple(sorted(t)) not in as_set(mesh) for t in result.mesh.elements])
     assert new.any() and result.mesh.areas[new].min() >= limit * (1 - 1e-9)  # all areas are multiples of .005
 
@@ -133,13 +140,13 @@ def test_no_swap_creates_an_element_below_the_area(name, norm):
 @pytest.mark.parametrize("norm", [2, "lexicographic"])
 def test_a_limit_that_is_just_met_is_met_at_any_scale(scale, limit, norm):
     """Halves of squares have 45 degrees and half the area; rounding must not decide."""
-    limit = {k: v * scale ** 2 if k == "min_area" else v for k, v in limit.items()}
+    limit = {k: v * scale**2 if k == "min_area" else v for k, v in limit.items()}
     mesh = delaunay(lattice(3, 3) * scale)
     values = np.round(10 * np.sin(np.arange(16) ** 2))
     free, limited = swapped(mesh, values, norm=norm), swapped(mesh, values, norm=norm, **limit)
     squares = np.degrees(angles(free.mesh.corners)).min(axis=1) > 44
     assert limited.swaps > 0
-    assert np.isclose(limited.mesh.areas, 0.5 * scale ** 2).all() and squares.any()
+    assert np.isclose(limited.mesh.areas, 0.5 * scale**2).all() and squares.any()
 
 
 def test_no_limit_and_a_limit_of_zero_are_the_same():
@@ -155,23 +162,23 @@ def test_the_max_min_angle_criterion_gives_delaunay(norm, rng):
     """Lawson 1972, Sibson 1978: from any mesh."""
     for _ in range(5):
         best = delaunay(rng.random((25, 2)))
-        result = swapped(shuffled(best, rng), np.zeros(25), "smallest-angle", norm)
+        result = swapped(shuffled(best, rng), np.zeros(25), "smallest-angle", norm=norm)
         assert result.mesh.equals(best)
 
 
 @settings(max_examples=60)
-@given(problems_of(scales=(1.0, 2.0 ** -30)))
+@given(problems_of(scales=(1.0, 2.0**-30)))
 def test_with_ties_it_gives_a_delaunay_mesh(problem):
     mesh, values = problem
-    assert is_delaunay(swapped(mesh, values, "smallest-angle", "max").mesh)
+    assert is_delaunay(swapped(mesh, values, "smallest-angle", norm="max").mesh)
 
 
 def paraboloid(x, y):
-    return x ** 2 + y ** 2
+    return x**2 + y**2
 
 
 def bowl(x, y):
-    return np.exp(x + y / 2) + x ** 4 + 20 * y ** 2
+    return np.exp(x + y / 2) + x**4 + 20 * y**2
 
 
 @pytest.mark.parametrize("u", [paraboloid, bowl])
@@ -184,13 +191,14 @@ def test_convex_data_have_one_optimum(u, rng):
     expected = lower_hull(nodes, u)
     for _ in range(4):
         start = shuffled(delaunay(nodes), rng)
-        result = swapped(start, u, criteria.min_error(u), 2, order=rng.permutation(start.n_edges))
+        result = swapped(start, u, criteria.min_error(u), norm=2, order=rng.permutation(start.n_edges))
         assert as_set(result.mesh) == expected
     assert (expected == as_set(delaunay(nodes))) == (u is paraboloid)
 
 
 def lower_hull(nodes, u):
     from scipy.spatial import ConvexHull
+
     hull = ConvexHull(np.column_stack([nodes, u(*nodes.T)]))
     return frozenset(tuple(sorted(t)) for t in hull.simplices[hull.equations[:, 2] < 0].tolist())
 
@@ -207,7 +215,7 @@ def test_one_swap_by_hand():
     result = swapped(mesh, u)
     assert (result.swaps, result.sweeps) == (1, 2)
     assert as_set(result.mesh) == {(0, 1, 2), (0, 2, 3), (1, 2, 4)}
-    row = result.trace[result.trace["accepted"]][0]
+    row = result.history[result.history["accepted"]][0]
     assert sorted(int(row[k]) for k in "ab") == [1, 3] and sorted(int(row[k]) for k in "cd") == [0, 2]
 
 
@@ -224,11 +232,19 @@ def test_no_interior_edge_no_swap():
     for norm in NORMS:
         result = swapped(mesh, [1, 2, 4], norm=norm)
         assert (result.swaps, result.sweeps, result.tried, result.mesh) == (0, 1, 0, mesh)
-        assert len(result.trace) == 0
+        assert len(result.history) == 0
 
 
-@pytest.mark.parametrize("values", [lambda v: v.tolist(), np.float32, lambda v: v.astype(int),
-                                    lambda v: np.repeat(v, 2)[::2], lambda v: v.astype(">f8")])
+@pytest.mark.parametrize(
+    "values",
+    [
+        lambda v: v.tolist(),
+        np.float32,
+        lambda v: v.astype(int),
+        lambda v: np.repeat(v, 2)[::2],
+        lambda v: v.astype(">f8"),
+    ],
+)
 def test_any_array_like_is_taken(values):
     mesh = problems.mesh("33")
     data = np.round(20 * problems.functions["SR1"](*mesh.nodes.T))
@@ -251,7 +267,7 @@ def test_place_and_size_do_not_matter(shift, scale):
 
 
 @pytest.mark.parametrize("name", ["jnd", "dlp"])
-@pytest.mark.parametrize("factor", [2.0 ** -60, 2.0 ** 60])
+@pytest.mark.parametrize("factor", [2.0**-60, 2.0**60])
 def test_the_size_of_the_data_does_not_matter(name, factor):
     mesh, u = problems.mesh("33"), problems.functions["SR2"](*problems.nodes("33").T)
     assert swapped(mesh, factor * u, name).mesh.equals(swapped(mesh, u, name).mesh)

@@ -1,13 +1,14 @@
 """Long runs: a bar on request, and an interrupt that leaves a valid mesh."""
+
 import signal
 import threading
 
 import numpy as np
 import pytest
 
-import meshlib.watching
+import meshlib.support.progress
 from meshlib import Interrupted, delaunay, problems, swapped
-from meshlib.watching import Watch
+from meshlib.support.progress import Watch
 
 
 @pytest.fixture
@@ -24,6 +25,7 @@ def interrupted(monkeypatch):
         reports.append(done)
         if len(reports) == 2:
             signal.raise_signal(signal.SIGINT)
+
     monkeypatch.setattr(Watch, "part", 100)
     monkeypatch.setattr(Watch, "report", report)
     return reports
@@ -36,22 +38,22 @@ def test_an_interrupt_keeps_what_is_done(start, interrupted, schedule, order):
     order = None if order is None else np.arange(start.n_edges)[::-1]
     before = signal.getsignal(signal.SIGINT)
     with pytest.raises(KeyboardInterrupt) as stop:
-        swapped(start, u, "abn", 1, order=order, schedule=schedule)
+        swapped(start, u, "abn", norm=1, order=order, schedule=schedule)
     found = stop.value.result
     assert isinstance(stop.value, Interrupted) and len(interrupted) == 2
     assert found.mesh.validate().counts == start.counts
     assert 0 < found.swaps <= found.tried <= 200 and found.cost_after < found.cost_before
-    assert found.trace["accepted"].sum() == found.swaps and len(found.trace) == found.tried
+    assert found.history["accepted"].sum() == found.swaps and len(found.history) == found.tried
     assert signal.getsignal(signal.SIGINT) is before
 
 
 @pytest.mark.parametrize("schedule", ["sweep", "queue"])
 def test_a_run_in_parts_is_the_run_in_one(start, schedule, monkeypatch):
     u = problems.functions["franke"]
-    whole = swapped(start, u, "abn", 1, schedule=schedule)
+    whole = swapped(start, u, "abn", norm=1, schedule=schedule)
     for part in (1, 7, 1000):
         monkeypatch.setattr(Watch, "part", part)
-        found = swapped(start, u, "abn", 1, schedule=schedule)
+        found = swapped(start, u, "abn", norm=1, schedule=schedule)
         assert found.mesh.equals(whole.mesh)
         assert (found.swaps, found.sweeps, found.tried) == (whole.swaps, whole.sweeps, whole.tried)
 
@@ -71,10 +73,11 @@ def test_the_bar_ends_at_the_number_of_edges_or_before(start, schedule, monkeypa
 
         def close(self):
             self.closed = True
-    monkeypatch.setattr(meshlib.watching, "bar", Bar)
+
+    monkeypatch.setattr(meshlib.support.progress, "bar", Bar)
     monkeypatch.setattr(Watch, "part", 100)
     swapped(start, problems.functions["franke"], schedule=schedule, progress=True)
-    bar, = Bar.made
+    (bar,) = Bar.made
     assert bar.total == start.n_edges and bar.closed and len(bar.seen) > 5
     assert all(0 <= n <= bar.total for n in bar.seen)
 

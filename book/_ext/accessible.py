@@ -3,12 +3,12 @@
 Names that contradict the text of a button, and a list without items, are taken out of the
 finished pages. The script of the icons, which is larger than a page, comes after its text.
 """
+
 import re
 from pathlib import Path
 
 MENDED = {
-    'search-button-field search-button__button pst-js-only" title="Search" aria-label="Search"':
-        'search-button-field search-button__button pst-js-only" title="Search"',
+    'search-button-field search-button__button pst-js-only" title="Search" aria-label="Search"': 'search-button-field search-button__button pst-js-only" title="Search"',
     'data-mode="light" title="Light"': 'data-mode="light"',
     'data-mode="dark"  title="Dark"': 'data-mode="dark"',
     'data-mode="auto"  title="System Settings"': 'data-mode="auto"',

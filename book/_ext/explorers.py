@@ -3,6 +3,7 @@
 A cell with the tag ``explorer-NAME`` shows the picture of its explorer; where a browser
 runs scripts, the explorer of that name takes its place.
 """
+
 import base64
 import gzip
 from pathlib import Path
@@ -16,7 +17,7 @@ from meshlib.thesis.explorers import ALL
 TAG = "tag_explorer-"
 SCRIPT, STYLES, FOLDER = "explorers.js", "explorers.css", "explorers"
 WIDGETS = "application/vnd.jupyter.widget-state+json"  # longer than all the rest of a page
-SLOW = "approximation",  # seconds for each state, so that all cores share them
+SLOW = ("approximation",)  # seconds for each state, so that all cores share them
 FIRST = 100  # of the scripts; those of Sphinx have 200
 LAST = 900  # of the listeners, once others have added their scripts
 logger = logging.getLogger(__name__)
@@ -35,7 +36,8 @@ def write(folder, names=tuple(ALL)):
         packed = base64.b64encode(gzip.compress(pages, mtime=0)).decode()
         # A script and not data, since pages opened from a file may load nothing else.
         (folder / FOLDER / f"{name}.js").write_text(
-            f'(window.meshExplorers ||= []).push(["{name}", "{packed}"]);\n')
+            f'(window.meshExplorers ||= []).push(["{name}", "{packed}"]);\n'
+        )
 
 
 def parallel(function, items):
@@ -51,8 +53,9 @@ def write_all(app):
 
 def load(app, page, template, context, doctree):
     """Have a page load what its explorers need, and nothing for widgets, which no page shows."""
-    context["script_files"][:] = [script for script in context["script_files"]
-                                  if script.attributes.get("type") != WIDGETS]
+    context["script_files"][:] = [
+        script for script in context["script_files"] if script.attributes.get("type") != WIDGETS
+    ]
     names = [name for name in ALL if TAG + name in context.get("body", "")]
     if names:
         app.add_css_file(STYLES)

@@ -3,6 +3,7 @@
 JupyterLite is part of the site.  Binder and Colab start from the repository and are
 shown once its address is known, as ``launch_repository`` in ``_config.yml``.
 """
+
 from urllib.parse import quote
 
 from wheels import REQUIREMENT
@@ -18,29 +19,55 @@ def add_launch_menu(app, pagename, templatename, context, doctree):
     notebook = f"{pagename}.ipynb"
     if not (doctree and (app.srcdir / notebook).exists()):
         return
-    entries = [entry("Browser", context["pathto"](LITE + notebook, 1), "jupyterlite.svg",
-                     "Run this chapter here, as real Python in the browser"),
-               *hosted(app.config.launch_repository.rstrip("/"), app.config.launch_branch, notebook)]
-    context["header_buttons"].insert(0, {"type": "group", "label": "launch-buttons", "icon": "fas fa-rocket",
-                                         "tooltip": "Run this chapter", "buttons": entries})
+    entries = [
+        entry(
+            "Browser",
+            context["pathto"](LITE + notebook, 1),
+            "jupyterlite.svg",
+            "Run this chapter here, as real Python in the browser",
+        ),
+        *hosted(app.config.launch_repository.rstrip("/"), app.config.launch_branch, notebook),
+    ]
+    context["header_buttons"].insert(
+        0,
+        {
+            "type": "group",
+            "label": "launch-buttons",
+            "icon": "fas fa-rocket",
+            "tooltip": "Run this chapter",
+            "buttons": entries,
+        },
+    )
 
 
 def hosted(repository, branch, notebook):
     """Entries of the services that start from a repository; none as long as it has no address."""
     if repository:
-        yield entry("Binder", f"{BINDER}{quote(repository, safe='')}/{branch}?urlpath=lab/tree/{notebook}",
-                    "binder.svg", "Run this chapter on Binder, in the environment of the repository")
+        yield entry(
+            "Binder",
+            f"{BINDER}{quote(repository, safe='')}/{branch}?urlpath=lab/tree/{notebook}",
+            "binder.svg",
+            "Run this chapter on Binder, in the environment of the repository",
+        )
     if repository.startswith(CODE_HOST_OF_COLAB):
         name = repository.removeprefix(CODE_HOST_OF_COLAB)
-        yield entry("Colab", f"{COLAB}{name}/blob/{branch}/{notebook}", "colab.png",
-                    "Run this chapter on Colab, first of all: "
-                    f"%pip install '{REQUIREMENT} @ git+{repository}'")
+        yield entry(
+            "Colab",
+            f"{COLAB}{name}/blob/{branch}/{notebook}",
+            "colab.png",
+            f"Run this chapter on Colab, first of all: %pip install '{REQUIREMENT} @ git+{repository}'",
+        )
 
 
 def entry(text, url, logo, tooltip):
     """One line of the menu."""
-    return {"type": "link", "text": text, "url": url, "tooltip": tooltip,
-            "icon": f"_static/images/logo_{logo}"}
+    return {
+        "type": "link",
+        "text": text,
+        "url": url,
+        "tooltip": tooltip,
+        "icon": f"_static/images/logo_{logo}",
+    }
 
 
 def setup(app):

@@ -5,6 +5,7 @@ library and of what Pyodide lacks.  Pyodide itself comes from its content delive
 network when a reader starts a kernel, or from the site if the environment variable
 ``MESHLIB_PYODIDE`` names a folder with the files of that release.
 """
+
 import json
 import os
 import re
@@ -77,9 +78,14 @@ def installing(notebook):
 def settings(pyodide_url):
     """Settings of JupyterLite: where Pyodide is; and that no package index is asked."""
     kernel = {"pyodideUrl": pyodide_url, "disablePyPIFallback": True}
-    return {"jupyter-lite-schema-version": 0,
-            "jupyter-config-data": {"appName": "Data dependent meshes", "exposeAppInBrowser": True,
-                                    "litePluginSettings": {f"{KERNEL}:kernel": kernel}}}
+    return {
+        "jupyter-lite-schema-version": 0,
+        "jupyter-config-data": {
+            "appName": "Data dependent meshes",
+            "exposeAppInBrowser": True,
+            "litePluginSettings": {f"{KERNEL}:kernel": kernel},
+        },
+    }
 
 
 def _write(path, text):
@@ -90,15 +96,26 @@ def _write(path, text):
 def build_options():
     """Nothing but the named extensions goes in, whatever else the environment has."""
     installed = Path(sys.prefix, "share/jupyter/labextensions")
-    return {"LiteBuildConfig": {
-        "apps": APPS, "contents": [CONTENTS], "no_libarchive": True, "no_sourcemaps": True,
-        "no_unused_shared_packages": True, "ignore_sys_prefix": ["federated_extensions"],
-        "federated_extensions": [str(installed / name) for name in EXTENSIONS]}}
+    return {
+        "LiteBuildConfig": {
+            "apps": APPS,
+            "contents": [CONTENTS],
+            "no_libarchive": True,
+            "no_sourcemaps": True,
+            "no_unused_shared_packages": True,
+            "ignore_sys_prefix": ["federated_extensions"],
+            "federated_extensions": [str(installed / name) for name in EXTENSIONS],
+        }
+    }
 
 
 def _run_jupyterlite(folder, target):
-    done = subprocess.run([sys.executable, "-m", "jupyterlite_core", "build", "--output-dir", str(target)],
-                          cwd=folder, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-m", "jupyterlite_core", "build", "--output-dir", str(target)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+    )
     if done.returncode:
         raise RuntimeError(f"JupyterLite was not built:\n{done.stdout}\n{done.stderr}")
 

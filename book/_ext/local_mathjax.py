@@ -3,14 +3,21 @@
 The files come from the Python package that carries them; the setting
 ``mathjax_path`` in ``_config.yml`` points at the copy.
 """
+
 from importlib.util import find_spec
 from pathlib import Path
 from shutil import copy2
 
 # The page loads the first file; the folders serve its rarer commands and its
 # spoken and tactile output, which MathJax asks for by relative address.
-WANTED = ["tex-svg.js", "input/tex/extensions/*.js", "a11y/*.js",
-          "sre/mathmaps/base.json", "sre/mathmaps/en.json", "sre/mathmaps/nemeth.json"]
+WANTED = [
+    "tex-svg.js",
+    "input/tex/extensions/*.js",
+    "a11y/*.js",
+    "sre/mathmaps/base.json",
+    "sre/mathmaps/en.json",
+    "sre/mathmaps/nemeth.json",
+]
 
 
 def copy_mathjax(app, exception):

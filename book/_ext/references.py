@@ -4,6 +4,7 @@ A cross-reference becomes the words that the page has for it, and leads to the n
 the other chapter; definitions, theorems and boxes become paragraphs between two lines; and
 a figure gets its number and caption below.
 """
+
 import re
 from functools import lru_cache
 
@@ -11,8 +12,14 @@ import nbformat
 from docutils import nodes
 from sphinx import addnodes
 
-ROLES = {"ref": ("std", "ref"), "numref": ("std", "numref"), "doc": ("std", "doc"), "eq": ("math", "eq"),
-         "prf:ref": ("prf", "ref"), "cite": ("cite", "p")}
+ROLES = {
+    "ref": ("std", "ref"),
+    "numref": ("std", "numref"),
+    "doc": ("std", "doc"),
+    "eq": ("math", "eq"),
+    "prf:ref": ("prf", "ref"),
+    "cite": ("cite", "p"),
+}
 ROLE = re.compile(r"\{(" + "|".join(ROLES) + r")\}`([^`]+)`")
 EXPLICIT = re.compile(r"(.+?)\s*<(.+)>", re.DOTALL)
 DIRECTIVE = re.compile(r"^(`{3,})\{([a-z:]+)\} *(.*)\n((?::.*\n)*)((?:.*\n)*?)\1$", re.MULTILINE)
@@ -71,10 +78,12 @@ class Plain:
         """Words of a reference, and the page that it leads to unless that is this one."""
         domain, kind = ROLES[role]
         title, target = match.groups() if (match := EXPLICIT.fullmatch(target)) else ("", target)
-        node = addnodes.pending_xref("", refdomain=domain, reftype=kind, reftarget=target,
-                                     refdoc=self.docname, refexplicit=bool(title))
+        node = addnodes.pending_xref(
+            "", refdomain=domain, reftype=kind, reftarget=target, refdoc=self.docname, refexplicit=bool(title)
+        )
         env, content = self.app.env, nodes.inline("", title or target)
-        found = env.get_domain(domain).resolve_xref(env, self.docname, self.app.builder, kind, target,
-                                                    node, content)
+        found = env.get_domain(domain).resolve_xref(
+            env, self.docname, self.app.builder, kind, target, node, content
+        )
         link = next(found.findall(nodes.reference))
         return found.astext(), link.get("refuri", "").partition("#")[0]

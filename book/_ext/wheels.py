@@ -4,6 +4,7 @@ Pyodide has NumPy, SciPy and Matplotlib.  The pure Python packages beside them a
 packed again from the environment that builds the book: nothing is downloaded, and
 their versions are those of ``requirements.txt``.
 """
+
 import subprocess
 import sys
 from importlib.metadata import distribution
@@ -13,8 +14,15 @@ from tempfile import TemporaryDirectory
 
 REQUIREMENT = "data-dependent-mesh[fem,plot,widgets]"  # of a notebook
 LIBRARY = ["meshlib", "pyproject.toml", "README.md", "LICENSE"]
-CARRIED = ["anywidget", "comm", "ipywidgets", "jupyterlab-widgets", "psygnal", "scikit-fem",
-           "typing-extensions"]
+CARRIED = [
+    "anywidget",
+    "comm",
+    "ipywidgets",
+    "jupyterlab-widgets",
+    "psygnal",
+    "scikit-fem",
+    "typing-extensions",
+]
 PURE = "Wheel-Version: 1.0\nGenerator: meshlib\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
 # Compiled twins of pure modules, and what belongs to this installation alone.
 LEFT_OUT = (".so", ".pyd", ".pyc", "INSTALLER", "REQUESTED", "RECORD", "direct_url.json")
@@ -32,8 +40,17 @@ def library_wheel(root, folder):
     with TemporaryDirectory() as copy:
         for name in LIBRARY:
             _copied(Path(root, name), Path(copy, name))
-        _python("pip", "wheel", copy, "--no-deps", "--no-build-isolation", "--quiet",
-                "--disable-pip-version-check", "--wheel-dir", folder)
+        _python(
+            "pip",
+            "wheel",
+            copy,
+            "--no-deps",
+            "--no-build-isolation",
+            "--quiet",
+            "--disable-pip-version-check",
+            "--wheel-dir",
+            folder,
+        )
 
 
 def packed_again(name, folder):

@@ -1,8 +1,9 @@
 r"""Nodes taken out again where they serve least, and nodes put on the boundary that all but lie on it."""
+
 import numpy as np
 
-from ..choice import coarse, independent
-from ..sides import CORNER, INTERIOR
+from ..mesh.boundary_sides import CORNER, INTERIOR
+from ..support.independent import coarse, independent
 
 LOOKED_AT = 3  # nodes for each that is to be taken out
 FEWEST = 40  # nodes looked at in any case
@@ -50,7 +51,7 @@ class _Pairs:
     def keep_likely(self, draft, number):
         """Keep so many nodes, and of each the few neighbours towards which the function bends least."""
         bend = draft.bends_of(np.stack([self.i, self.j], axis=1))
-        bent = _without_noise(draft, bend ** 2 * draft.patch_sums(draft.mesh.areas)[self.i])
+        bent = _without_noise(draft, bend**2 * draft.patch_sums(draft.mesh.areas)[self.i])
         order, rank = self._ranked(bent)
         first = order[rank == 0]
         worth = np.full(draft.n_nodes, np.inf)
@@ -143,15 +144,21 @@ def settle_on_boundary(draft):
     good = near[better]
     corner, row = draft.patches().of(node[good])
     chosen = independent(gain[better], row, corner // 3, len(draft.elements))
-    _put(draft, node[good][chosen], element[good][chosen], foot[good][chosen], values[better][chosen],
-         side[good][chosen])
+    _put(
+        draft,
+        node[good][chosen],
+        element[good][chosen],
+        foot[good][chosen],
+        values[better][chosen],
+        side[good][chosen],
+    )
     return len(chosen)
 
 
 def _is_near(ends, point, foot):
     along = ends[:, 1] - ends[:, 0]
     length = np.hypot(*along.T)
-    share = ((foot - ends[:, 0]) * along).sum(axis=1) / length ** 2
+    share = ((foot - ends[:, 0]) * along).sum(axis=1) / length**2
     return (np.hypot(*(point - foot).T) < NEAR * length) & (np.abs(share - 0.5) < 0.5 - BETWEEN)
 
 

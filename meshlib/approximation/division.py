@@ -1,8 +1,9 @@
 """Elements divided into four: what is well arranged stays so at half the size."""
+
 import numpy as np
 
-from ..sides import INTERIOR
-from ..splitting import SPLITS
+from ..mesh.boundary_sides import INTERIOR
+from ..refinement.splitting import SPLITS
 
 WORTH = 0.1  # of the mean error of an element, from which on it is divided
 ALONE = 50  # elements that are tried one by one
@@ -27,7 +28,7 @@ def bisect(draft, most):
         New nodes at most.
     """
     order = draft.worst(most)
-    tried = [order[:len(order) >> k] for k in range(len(order).bit_length())]
+    tried = [order[: len(order) >> k] for k in range(len(order).bit_length())]
     for marked in (*tried, *order[1:ALONE, None]):
         elements, parents, ends, _ = SPLITS["longest-edge"](draft.mesh, np.sort(marked))
         if len(ends) <= most and _are_allowed(draft, elements, parents, ends):

@@ -11,12 +11,13 @@ them::
            \ /               \|/
             d                 d
 """
+
 import numpy as np
 
-from ..choice import coarse, independent
-from ..sides import INTERIOR
-from ..topology import TAILS
-from .draft import WORST
+from ..mesh.boundary_sides import INTERIOR
+from ..mesh.topology import TAILS
+from ..support.independent import coarse, independent
+from .working_mesh import WORST
 
 LEAST = 1e-9  # of the same, at which nothing is left that could be split
 CANDIDATES = 2  # elements looked at for each node to be inserted
@@ -35,8 +36,11 @@ def insert(draft, count, share=WORST):
     best, gain = kind * len(worst) + column, gain[kind, column]
     possible = np.flatnonzero(np.isfinite(gain))
     touched = stars.touched[best[possible]]
-    chosen = possible[independent(gain[possible], np.repeat(np.arange(len(possible)), 2), touched.ravel(),
-                                  len(draft.elements))[:count]]
+    chosen = possible[
+        independent(
+            gain[possible], np.repeat(np.arange(len(possible)), 2), touched.ravel(), len(draft.elements)
+        )[:count]
+    ]
     if len(chosen):
         stars.put_into(draft, best[chosen])
     elif share > LEAST:
@@ -61,8 +65,9 @@ class _Stars:
     def __init__(self, draft, worst):
         kinds = [self._on_edge(draft, worst, k) for k in range(3)]
         kinds += [self._inside(draft, worst, points) for points in _inner_points(draft, worst)]
-        self.points, self.touched, self.rim, self.split = (np.concatenate(part)
-                                                           for part in zip(*kinds, strict=True))
+        self.points, self.touched, self.rim, self.split = (
+            np.concatenate(part) for part in zip(*kinds, strict=True)
+        )
         self.values = draft.misfit.values(*self.points.T.copy())
 
     @staticmethod
@@ -120,8 +125,10 @@ class _Stars:
         draft.values = np.concatenate([draft.values, self.values[chosen]])
         draft.side = np.concatenate([draft.side, self._sides(draft, chosen)])
         draft.elements = np.concatenate([draft.elements[kept], new])
-        draft.settle(np.concatenate([draft.errors[kept], np.full(len(new), np.nan)]),
-                     np.concatenate([draft.fresh[kept], np.ones(len(new), dtype=bool)]))
+        draft.settle(
+            np.concatenate([draft.errors[kept], np.full(len(new), np.nan)]),
+            np.concatenate([draft.fresh[kept], np.ones(len(new), dtype=bool)]),
+        )
 
     def _sides(self, draft, chosen):
         split, side = self.split[chosen], np.full(len(chosen), INTERIOR)

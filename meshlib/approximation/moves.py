@@ -1,15 +1,16 @@
 """Nodes moved to where the error of their patch is least, by Newton's method on many patches at once."""
+
 import numpy as np
 
 from ..kernels import for_work
-from ..sides import CORNER
+from ..mesh.boundary_sides import CORNER
 from .patches import Patches
 
 REACH = 0.35  # of the extent of a patch: how far a node may go at once
 SHARES = (1.6, 0.7)  # of the step, tried one after the other: beyond the minimum, as others move as well
 WORTHWHILE = 1e-4  # gain foreseen, relative to the error of the patch, from which on a node is moved
 GAIN = 1e-10  # relative; smaller gains are rounding
-FINEST = 2.0 ** -12  # of the extent of a patch, of which steps are multiples
+FINEST = 2.0**-12  # of the extent of a patch, of which steps are multiples
 CURVED = 1e-3  # smallest curvature of the model, relative to its largest
 STEPS = 2  # of plain Python, to give a node its colour
 
@@ -32,8 +33,9 @@ class _Sweep:
         draft.nodes, draft.values, draft.fresh = draft.nodes.copy(), draft.values.copy(), draft.fresh.copy()
         self.draft, self.around, self.patches = draft, draft.neighbours(), draft.patches()
         self.little = draft.little
-        self.errors, self.moments = draft.misfit.moments(draft.nodes[draft.elements],
-                                                         draft.values[draft.elements], is_new=False)
+        self.errors, self.moments = draft.misfit.moments(
+            draft.nodes[draft.elements], draft.values[draft.elements], is_new=False
+        )
 
     def classes(self):
         """The nodes that may move, one colour after the other."""

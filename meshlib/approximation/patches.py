@@ -10,9 +10,10 @@ The curvature is that of the error of a quadratic function, area / 720 times
 
 All is written in the frame of a patch, two directions in which it is round.
 """
+
 import numpy as np
 
-from ..sides import INTERIOR
+from ..mesh.boundary_sides import INTERIOR
 from .collapse import beside
 
 PROBE = 0.08  # of the extent of a patch, at which differences of the function are taken
@@ -81,7 +82,7 @@ class Patches:
     def _side_frames(self, middle):
         here = self.draft.nodes[self.nodes[self.bound]]
         away = self.draft.nodes[self.beside] - here[:, None]
-        nearest = np.sqrt((away ** 2).sum(axis=2)).min(axis=1)[:, None]
+        nearest = np.sqrt((away**2).sum(axis=2)).min(axis=1)[:, None]
         ends = self.draft.boundary.ends[self.draft.side[self.nodes[self.bound]]]
         along = ends[:, 1] - ends[:, 0]
         along /= np.hypot(*along.T)[:, None]
@@ -102,7 +103,7 @@ class Patches:
 
     def _steepness(self, areas):
         """How much more a power of the error curves than its square: p / 2 times the mean of |e|^(p - 2)."""
-        power = 2 ** self.draft.misfit.squarings
+        power = 2**self.draft.misfit.squarings
         return power / 2 * (self.error / areas) ** (1 - 2 / power)
 
     def _differences(self, frames):
@@ -113,7 +114,7 @@ class Patches:
         places = np.concatenate([centre, centre + u, centre - u, centre + v, centre - v, centre + u + v])
         here, right, left, up, down, both = self.draft.misfit.values(*places.T.copy()).reshape(6, -1)
         mixed = both - right - up + here
-        hessian = np.stack([right + left - 2 * here, mixed, mixed, up + down - 2 * here], axis=1) / PROBE ** 2
+        hessian = np.stack([right + left - 2 * here, mixed, mixed, up + down - 2 * here], axis=1) / PROBE**2
         slope = np.stack([right - left, up - down], axis=1) / (2 * PROBE)
         slope[self.bound] -= PROBE * hessian[self.bound][:, [1, 3]]
         return slope, hessian.reshape(-1, 2, 2)
@@ -144,11 +145,12 @@ class Patches:
         curvature[bound, 0, 1] = curvature[bound, 1, 0] = 0
         curvature[bound, 1, 1] = np.abs(curvature[bound, 1, 1]) + np.abs(curvature[bound, 0, 0])
         for j, node in enumerate(self.beside.T):
-            away = ((self.draft.nodes[node] - here) * frames[bound, 0]).sum(axis=1) / length ** 2
+            away = ((self.draft.nodes[node] - here) * frames[bound, 0]).sum(axis=1) / length**2
             chord = (self.draft.values[node] - self.draft.values[self.nodes[bound]]) / away
             force[bound, 0] += 2 * self.side_moments[:, j] * (slope[bound, 0] - chord)
-            curvature[bound, 0, 0] += (self.draft.weight * length * hessian[bound, 0, 0] ** 2
-                                       * np.abs(away) ** 3 / 6)
+            curvature[bound, 0, 0] += (
+                self.draft.weight * length * hessian[bound, 0, 0] ** 2 * np.abs(away) ** 3 / 6
+            )
         return force, curvature
 
 

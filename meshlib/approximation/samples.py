@@ -1,7 +1,8 @@
 """Samples on a regular grid as a function: bilinear between them."""
+
 import numpy as np
 
-from ..errors import MeshError
+from ..errors import InvalidInputError
 
 
 class Samples:
@@ -29,13 +30,18 @@ class Samples:
     def __init__(self, samples, low, high):
         self.samples = np.asarray(samples)
         if self.samples.ndim != 2 or min(self.samples.shape) < 2 or self.samples.dtype.kind not in "fiu":
-            raise MeshError("samples", f"samples have shape {self.samples.shape} and dtype "
-                            f"{self.samples.dtype}; give two rows and columns of real numbers at least")
+            raise InvalidInputError(
+                "samples",
+                f"samples have shape {self.samples.shape} and dtype "
+                f"{self.samples.dtype}; give two rows and columns of real numbers at least",
+            )
         self.samples = self.samples.astype(float)
         bad = np.argwhere(~np.isfinite(self.samples))
         if len(bad):
-            raise MeshError("finite", f"sample {tuple(bad[0].tolist())} is {self.samples[tuple(bad[0])]}; "
-                            "fill it in or cut it off")
+            raise InvalidInputError(
+                "finite",
+                f"sample {tuple(bad[0].tolist())} is {self.samples[tuple(bad[0])]}; fill it in or cut it off",
+            )
         self.low, self.size = np.asarray(low, dtype=float), np.subtract(high, low)
 
     def __call__(self, x, y):

@@ -3,14 +3,15 @@
 A mesh for many nodes begins as one for a quarter of them, with its elements divided: in
 this way its good arrangement, the dearest thing to reach, is kept.
 """
+
 import numpy as np
 
 from .collapse import collapse, settle_on_boundary
 from .division import bisect, divide
-from .draft import Best
 from .insertion import insert
 from .moves import move
 from .swaps import swap
+from .working_mesh import Best
 
 GROWTH = 0.25  # of the nodes, inserted at once at most
 FEW_PASSES = 4  # of swaps between two insertions

@@ -1,8 +1,9 @@
 """Swaps that lower the error, many at a time."""
+
 import numpy as np
 
-from ..choice import coarse, independent
-from ..topology import quadrilaterals
+from ..mesh.topology import quadrilaterals
+from ..support.independent import coarse, independent
 
 GAIN = 1e-9  # of the error of two elements, below which they stay
 
@@ -38,8 +39,9 @@ def _pass(draft):
     old, new = draft.errors[pairs].sum(axis=1), np.stack([draft.error_of(first), draft.error_of(second)])
     gain = coarse(old - new.sum(axis=0))
     good = np.flatnonzero(gain > GAIN * old)
-    chosen = good[independent(gain[good], np.repeat(np.arange(len(good)), 2), pairs[good].ravel(),
-                              len(draft.elements))]
+    chosen = good[
+        independent(gain[good], np.repeat(np.arange(len(good)), 2), pairs[good].ravel(), len(draft.elements))
+    ]
     _exchange(draft, pairs[chosen].T, (first[chosen], second[chosen]), new[:, chosen])
     return len(chosen)
 

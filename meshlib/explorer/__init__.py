@@ -4,6 +4,7 @@ What can be chosen (`controls`) and what is to be seen (`scene`) are data. In Ju
 become widgets (`widgets`) and one view (`view`); a page without a kernel has them computed
 beforehand (`atlas`), and draws them with the same scripts (`scripts`).
 """
+
 import base64
 
 from .controls import Control, Exploration, menu, slider
@@ -55,6 +56,7 @@ class Explorer:
     def __init__(self, exploration, **settings):
         from . import widgets
         from .view import View
+
         self.exploration = exploration
         self.controls = widgets.build(exploration.controls, exploration.checked(settings))
         self.view = View()
@@ -67,6 +69,7 @@ class Explorer:
     def _follow(self, _=None):
         """Bring scene and view up to date with the controls; an adapted mesh stays one."""
         from .atlas import packed
+
         self.scene = self.exploration.scene(**{name: c.value for name, c in self.controls.items()})
         self.view.atlas = packed(self.exploration, [self.scene])
         if self.exploration.film:
@@ -85,6 +88,7 @@ class Explorer:
 
     def _picture(self):
         from .picture import png
+
         try:
             return {"image/png": base64.b64encode(png(self.scene)).decode()}
         except ImportError:  # without matplotlib there is no picture; the live view needs none

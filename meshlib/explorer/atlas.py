@@ -3,11 +3,12 @@
 Meshes of an atlas have most of their nodes and elements in common, so these are stored
 once, and a mesh is the list of the numbers of its elements.
 """
+
 import json
 
 import numpy as np
 
-from ..criteria import get
+from ..criteria.registry import get
 from .scene import truth
 
 ALIGNED = 8  # bytes, the size of the largest item
@@ -35,9 +36,13 @@ def packed(exploration, scenes, index=None):
     tables = _Tables()
     for scene in scenes:
         tables.add(scene)
-    header = {"name": exploration.name, "film": exploration.film, "scenes": tables.captions,
-              "initial": {name: str(value) for name, value in exploration.initial.items()},
-              "controls": [_described(control) for control in exploration.controls]}
+    header = {
+        "name": exploration.name,
+        "film": exploration.film,
+        "scenes": tables.captions,
+        "initial": {name: str(value) for name, value in exploration.initial.items()},
+        "controls": [_described(control) for control in exploration.controls],
+    }
     return _joined(header, tables.arrays() | {"index": np.array(index or [0])})
 
 
@@ -54,9 +59,13 @@ def pages(exploration, map=map):
 
 
 def _described(control):
-    return {"name": control.name, "label": control.label, "kind": control.kind,
-            "values": [str(value) for value in control.paged],
-            "texts": [control.text(value) for value in control.paged]}
+    return {
+        "name": control.name,
+        "label": control.label,
+        "kind": control.kind,
+        "values": [str(value) for value in control.paged],
+        "texts": [control.text(value) for value in control.paged],
+    }
 
 
 class _Tables:
@@ -71,17 +80,24 @@ class _Tables:
     def add(self, scene):
         """Take in a scene."""
         cost = get(scene.cost)
-        self.captions.append({"title": scene.title, "cost": cost.name, "on": cost.on,
-                              "norm": str(scene.norm)})
+        self.captions.append(
+            {"title": scene.title, "cost": cost.name, "on": cost.on, "norm": str(scene.norm)}
+        )
         name = getattr(scene.function, "name", None) or id(scene.function)
         points = self._point_numbers(scene, scene.start)
         truth_number = self._truths.setdefault(name, (len(self._truths), scene))[0]
-        for column, value in (("truth", truth_number), ("swaps", scene.swaps),
-                              ("start", self._mesh_number(scene, scene.start))):
+        for column, value in (
+            ("truth", truth_number),
+            ("swaps", scene.swaps),
+            ("start", self._mesh_number(scene, scene.start)),
+        ):
             self._columns[column].append(value)
         self._films.append([self._mesh_number(scene, mesh) for mesh in scene.film])
-        self._tried.append([points[scene.trace[field]] if field in "abcd" else scene.trace[field]
-                            for field in TRIED] if len(scene.trace) else NOTHING_TRIED)
+        self._tried.append(
+            [points[scene.trace[field]] if field in "abcd" else scene.trace[field] for field in TRIED]
+            if len(scene.trace)
+            else NOTHING_TRIED
+        )
 
     def _point_numbers(self, scene, mesh):
         values = scene.function(*mesh.nodes.T)
@@ -101,14 +117,22 @@ class _Tables:
         points = np.array(list(self._points))
         scenes = [scene for _, scene in self._truths.values()]
         meshes = list(self._meshes)
-        return ({"x": points[:, 0], "y": points[:, 1], "u": points[:, 2],
-                 "grids": np.stack([truth(s.function, s.start) for s in scenes]).astype("f4"),
-                 "elements": np.array(list(self._elements)),
-                 "meshes": _starts(meshes), "members": np.concatenate([_steps(m) for m in meshes]),
-                 "films": _starts(self._films), "film": np.concatenate(self._films),
-                 "traces": _starts([t[0] for t in self._tried])}
-                | {name: np.array(column) for name, column in self._columns.items()}
-                | dict(zip(TRIED, np.hstack(self._tried), strict=True)))
+        return (
+            {
+                "x": points[:, 0],
+                "y": points[:, 1],
+                "u": points[:, 2],
+                "grids": np.stack([truth(s.function, s.start) for s in scenes]).astype("f4"),
+                "elements": np.array(list(self._elements)),
+                "meshes": _starts(meshes),
+                "members": np.concatenate([_steps(m) for m in meshes]),
+                "films": _starts(self._films),
+                "film": np.concatenate(self._films),
+                "traces": _starts([t[0] for t in self._tried]),
+            }
+            | {name: np.array(column) for name, column in self._columns.items()}
+            | dict(zip(TRIED, np.hstack(self._tried), strict=True))
+        )
 
 
 def _starts(rows):

@@ -1,4 +1,5 @@
 """What can be chosen in an explorer, as data, for widgets in Jupyter and on a page alike."""
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
@@ -101,5 +102,7 @@ class Exploration:
     def pages(self):
         """All settings on a page, the last control the fastest."""
         names = [control.name for control in self.controls]
-        return [dict(zip(names, values, strict=True))
-                for values in product(*(control.paged for control in self.controls))]
+        return [
+            dict(zip(names, values, strict=True))
+            for values in product(*(control.paged for control in self.controls))
+        ]

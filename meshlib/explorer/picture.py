@@ -1,4 +1,5 @@
 """The scene of the explorer as a picture, for pages without JavaScript."""
+
 import re
 from io import BytesIO
 
@@ -49,16 +50,20 @@ def figure(scene):
     """
     limits = value_limits(scene.before.interpolant, scene.after.interpolant)
     drawn = pyplot().figure(figsize=SHAPE, layout="constrained")
-    axes = drawn.subplot_mosaic([["mesh", "lines", "error"], ["counts"] * 3, ["shapes"] * 3],
-                                 height_ratios=(3.2, 1, 1))
+    axes = drawn.subplot_mosaic(
+        [["mesh", "lines", "error"], ["counts"] * 3, ["shapes"] * 3], height_ratios=(3.2, 1, 1)
+    )
     drawn.suptitle(scene.title, fontsize="medium")
     _draw_mesh(axes["mesh"], scene.after.interpolant, limits)
     plot_contours(axes["lines"], scene.after.interpolant, limits=limits, ticks=True)
     _draw_error(axes["error"], scene)
     _draw_table(axes["counts"], scene.rows[:COLUMNS])
     _draw_table(axes["shapes"], scene.rows[COLUMNS:])
-    for name, title in (("mesh", "mesh over the interpolant"), ("lines", "lines of constant value"),
-                        ("error", "error |u − u$_h$|")):
+    for name, title in (
+        ("mesh", "mesh over the interpolant"),
+        ("lines", "lines of constant value"),
+        ("error", "error |u − u$_h$|"),
+    ):
         axes[name].set_title(title)
     return drawn
 
@@ -67,8 +72,9 @@ def _draw_mesh(ax, u_h, limits):
     levels = spaced(limits)
     bands = np.concatenate([[-np.inf], levels, [np.inf]])
     middles = np.linspace(*limits, len(levels) + 1)
-    ax.tricontourf(*u_h.mesh.nodes.T, u_h.mesh.elements, u_h.values, levels=bands,
-                   colors=colours_of(middles, limits))
+    ax.tricontourf(
+        *u_h.mesh.nodes.T, u_h.mesh.elements, u_h.values, levels=bands, colors=colours_of(middles, limits)
+    )
     # White on a dark rim can be seen on every colour.
     plot_mesh(ax, u_h.mesh, colour=(0, 0, 0, 0.45), width=2, ticks=True)
     plot_mesh(ax, u_h.mesh, colour="white", ticks=True)
@@ -86,8 +92,13 @@ def _draw_error(ax, scene):
 def _draw_table(ax, rows):
     ax.axis("off")
     labels, *columns = zip(*rows, strict=True)
-    table = ax.table(cellText=columns, rowLabels=STAGES, bbox=(0.06, 0, 0.94, 1), edges="B",
-                     colLabels=[NARROW.sub("\n", label) for label in labels])
+    table = ax.table(
+        cellText=columns,
+        rowLabels=STAGES,
+        bbox=(0.06, 0, 0.94, 1),
+        edges="B",
+        colLabels=[NARROW.sub("\n", label) for label in labels],
+    )
     table.auto_set_font_size(False)
     table.set_fontsize(LETTERS)
     for (row, column), cell in table.get_celld().items():

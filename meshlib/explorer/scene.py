@@ -1,15 +1,17 @@
 """What an explorer shows: a start mesh and what becomes of it, without widgets or pictures."""
+
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from ..interpolant import Interpolant
-from ..mesh import Mesh
-from ..quality import MEASURES, Quality, quality
+from ..interpolation.interpolant import Interpolant
+from ..mesh.mesh import Mesh
+from ..mesh.quality import Quality, quality
 
 GRID = 101  # points along each side, for errors as the thesis measures them
+MEASURES = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
 UNITS = {"maximum_angle": " (°)"}
 NO_TRACE = ()
 
@@ -27,7 +29,7 @@ class Scene:
     film : tuple of Mesh
         The meshes after the start, at least one; the last is the adapted mesh.
     trace : structured array
-        Tried swaps as in `meshlib.swapping.Swapping.trace`, which lead from the start to
+        Tried swaps as in `meshlib.swapping.swapped.Swapping.history`, which lead from the start to
         the only mesh of the film; then each try is a frame.
     swaps : int
     cost : str
@@ -68,8 +70,10 @@ class Scene:
 
     def __str__(self):
         edges = self.film[-1].n_edges
-        return (f"{self.title}: {edges} edges, {self.swaps} swap{'s' * (self.swaps != 1)}, "
-                f"L2 error {significant(self.after.l2_error)}")
+        return (
+            f"{self.title}: {edges} edges, {self.swaps} swap{'s' * (self.swaps != 1)}, "
+            f"L2 error {significant(self.after.l2_error)}"
+        )
 
 
 @dataclass(frozen=True)
@@ -103,7 +107,7 @@ class Stage:
         """By the trapezium rule on that grid."""
         x, y = np.linspace(*self.mesh.box, GRID).T
         # As Interpolant.l2_error, which would search the grid points a second time.
-        return float(np.sqrt(np.trapezoid(np.trapezoid(self.error ** 2, x, axis=1), y)))
+        return float(np.sqrt(np.trapezoid(np.trapezoid(self.error**2, x, axis=1), y)))
 
     @property
     def largest_error(self):
@@ -118,8 +122,7 @@ class Stage:
 
 def numbers(stage):
     """The numbers of the quality table, by label."""
-    found = dict(zip(("Nodes", "Edges", "Elements", "Swaps"), (*stage.mesh.counts, stage.swaps),
-                     strict=True))
+    found = dict(zip(("Nodes", "Edges", "Elements", "Swaps"), (*stage.mesh.counts, stage.swaps), strict=True))
     found |= {"L2 error": stage.l2_error, "Largest error": stage.largest_error}
     for name, title in MEASURES.items():
         for kind, values in (("mean", stage.quality.mean), ("max", stage.quality.max)):

@@ -1,9 +1,18 @@
 """The scripts of the explorer joined: a widget has a single file, and so has a page."""
+
 from pathlib import Path
 
 HERE = Path(__file__).parent
-SHARED = ("atlas.js", "measures.js", "pens.js", "drawing.js", "inspection.js", "saving.js", "panels.js",
-          "view.js")
+SHARED = (
+    "atlas.js",
+    "measures.js",
+    "pens.js",
+    "drawing.js",
+    "inspection.js",
+    "saving.js",
+    "panels.js",
+    "view.js",
+)
 
 
 def module():

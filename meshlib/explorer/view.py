@@ -1,4 +1,5 @@
 """The one view of the explorer where a kernel is: it holds a scene and draws it in the browser."""
+
 from ..errors import missing_extra
 from . import scripts
 

@@ -1,4 +1,5 @@
 """The controls of the explorer where a kernel is: standard ipywidgets, linked to the view."""
+
 from ..errors import missing_extra
 from .controls import MENU
 
@@ -21,8 +22,9 @@ def build(controls, settings):
 def _widget(control, value):
     options = list(zip(control.texts, control.options, strict=True))
     kind = ipywidgets.Dropdown if control.kind == MENU else ipywidgets.SelectionSlider
-    return kind(options=options, value=value, description=control.label, style=LABEL,
-                layout={"width": "auto"})
+    return kind(
+        options=options, value=value, description=control.label, style=LABEL, layout={"width": "auto"}
+    )
 
 
 def film(exploration, view):
@@ -44,6 +46,7 @@ def film(exploration, view):
 
 def assembled(controls, film, view):
     """The controls side by side, the film, and the view below."""
-    grid = ipywidgets.GridBox([*controls.values(), *film],
-                              layout={"grid_template_columns": COLUMNS, "grid_gap": "0 1.5rem"})
+    grid = ipywidgets.GridBox(
+        [*controls.values(), *film], layout={"grid_template_columns": COLUMNS, "grid_gap": "0 1.5rem"}
+    )
     return ipywidgets.VBox([grid, view], layout={"grid_gap": "0.5rem"})

@@ -4,6 +4,7 @@ Loading numba takes some tenths of a second, in which plain Python does many a s
 Whether it pays cannot be known before the last job; who rents skis until the rents have
 reached the price, and then buys, never pays more than twice what was necessary.
 """
+
 import os
 import sys
 from importlib import import_module
@@ -27,7 +28,7 @@ class _Kernels:
 
 
 COMPILED = _Kernels("meshlib.kernels")  # by numba, unless it is missing or not wanted
-INTERPRETED = _Kernels("meshlib.interpreted")
+INTERPRETED = _Kernels("meshlib.kernels.interpreted")
 
 
 def for_work(steps):

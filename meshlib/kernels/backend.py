@@ -5,13 +5,14 @@ The environment variable ``MESHLIB_BACKEND`` chooses: ``numba``, ``python``, or
 Kernels are written once, with flat arrays and scalars: numba compiles them for NumPy
 arrays, plain Python runs them on lists, which it indexes several times faster than arrays.
 """
+
 import os
 
-from ..checks import choice
-from ..errors import missing_extra
+from meshlib.checks import choice
+from meshlib.errors import missing_extra
 
 BACKENDS = ("auto", "numba", "python")
-COMPILING = "meshlib.kernels"  # the package; its twin is `meshlib.interpreted`
+COMPILING = "meshlib.kernels"  # the package; its twin is `meshlib.kernels.interpreted`
 
 
 def _chosen():

@@ -1,4 +1,5 @@
 """Colours for nodes, so that joined ones differ."""
+
 from .backend import compiled
 
 MOST = 62  # colours that fit into the bits of a number

@@ -6,6 +6,7 @@ depend on the swaps before, so that it is the same number whenever the element o
 Node n is the point x, y, u at 3 n of a flat array, and the face of element t, its
 gradient and doubled area, stands at 3 t of another: what is needed together lies together.
 """
+
 from math import atan2, inf, sqrt
 
 from .backend import compiled, inlined
@@ -94,8 +95,20 @@ def distance(point, a, b):
 def own_cost(given, point, a, b, c, d):
     """What a function of one's own returns for four points."""
     a, b, c, d = 3 * a, 3 * b, 3 * c, 3 * d
-    return given(point[a], point[a + 1], point[a + 2], point[b], point[b + 1], point[b + 2],
-                 point[c], point[c + 1], point[c + 2], point[d], point[d + 1], point[d + 2])
+    return given(
+        point[a],
+        point[a + 1],
+        point[a + 2],
+        point[b],
+        point[b + 1],
+        point[b + 2],
+        point[c],
+        point[c + 1],
+        point[c + 2],
+        point[d],
+        point[d + 1],
+        point[d + 2],
+    )
 
 
 @compiled

@@ -9,10 +9,11 @@ So crowded places have narrow strips, and an element finds its points by bisecti
     |  /_|___\    | .  |
     |.   |   | .  |.   |
 """
+
 from math import inf
 
 from .backend import compiled
-from .shapes import INSIDE, MOVED, is_flat, plane
+from .element_shapes import INSIDE, MOVED, is_flat, plane
 
 SPAN = 1e-9  # of its extent, by which an element is looked for beyond its bounding box
 NARROW = 3  # strips up to which an element is looked for between the same heights in each
@@ -69,8 +70,14 @@ def searched(x, y, size, edge, order, element, node, unit, best, found):
     """
     for t in order:
         a, b, c = element[3 * t], element[3 * t + 1], element[3 * t + 2]
-        ax, ay, bx, by, cx, cy = (node[2 * a], node[2 * a + 1], node[2 * b], node[2 * b + 1],
-                                  node[2 * c], node[2 * c + 1])
+        ax, ay, bx, by, cx, cy = (
+            node[2 * a],
+            node[2 * a + 1],
+            node[2 * b],
+            node[2 * b + 1],
+            node[2 * c],
+            node[2 * c + 1],
+        )
         ux, uy, vx, vy = bx - ax, by - ay, cx - ax, cy - ay
         area = ux * vy - uy * vx
         left, right, low, high = min(ax, bx, cx), max(ax, bx, cx), min(ay, by, cy), max(ay, by, cy)
@@ -81,8 +88,9 @@ def searched(x, y, size, edge, order, element, node, unit, best, found):
         while s < len(edge) - 1 and edge[s] <= right and area != 0:
             lowest, highest = low, high
             if wide:
-                lowest, highest = heights(ax, ay, bx, by, cx, cy, area,
-                                          max(left, edge[s]), min(right, edge[s + 1]))
+                lowest, highest = heights(
+                    ax, ay, bx, by, cx, cy, area, max(left, edge[s]), min(right, edge[s + 1])
+                )
             end = min(len(x), (s + 1) * size)
             p = first_not_below(y, s * size, end, max(low, lowest) - room)
             highest = min(high, highest) + room
@@ -104,6 +112,12 @@ def interpolated(x, y, found, element, node, u, value):
         if found[p] >= 0:
             a, b, c = element[3 * found[p]], element[3 * found[p] + 1], element[3 * found[p] + 2]
             ax, ay = node[2 * a], node[2 * a + 1]
-            gx, gy = plane(node[2 * b] - ax, node[2 * b + 1] - ay, node[2 * c] - ax, node[2 * c + 1] - ay,
-                           u[b] - u[a], u[c] - u[a])
+            gx, gy = plane(
+                node[2 * b] - ax,
+                node[2 * b + 1] - ay,
+                node[2 * c] - ax,
+                node[2 * c + 1] - ay,
+                u[b] - u[a],
+                u[c] - u[a],
+            )
             value[p] = u[a] + (gx * (x[p] - ax) + gy * (y[p] - ay))

@@ -12,6 +12,7 @@ the same side seen from the neighbour, or -1; ``slot[h]`` is the number of its e
            \ /                  \|/          n1 .. n4: the elements beyond
             d                    d
 """
+
 from math import nan
 
 from .backend import compiled, inlined
@@ -112,11 +113,13 @@ def diagonal_cost(code, given, point, a, b, c, d, g, A, k, B):
 def new_costs(code, given, point, a, b, c, d, beyond, across, g, A, k, B, element, face):
     """Costs of c-d, which is ``across``, and of b-c, c-a, a-d, d-b after the swap."""
     bc, ca, ad, db = beyond
-    return (across,
-            side_cost(code, given, point, d, k, B, bc, b, c, element, face),
-            side_cost(code, given, point, d, g, A, ca, c, a, element, face),
-            side_cost(code, given, point, c, g, A, ad, a, d, element, face),
-            side_cost(code, given, point, c, k, B, db, d, b, element, face))
+    return (
+        across,
+        side_cost(code, given, point, d, k, B, bc, b, c, element, face),
+        side_cost(code, given, point, d, g, A, ca, c, a, element, face),
+        side_cost(code, given, point, c, g, A, ad, a, d, element, face),
+        side_cost(code, given, point, c, k, B, db, d, b, element, face),
+    )
 
 
 @compiled
@@ -125,8 +128,9 @@ def first_costs(code, given, point, element, twin, half, face, cost):
     for e in range(len(half)):
         h = half[e]
         t, a, b = 3 * (h // 3), element[after(h)], element[before(h)]
-        cost[e] = side_cost(code, given, point, element[h], (face[t], face[t + 1]), face[t + 2], twin[h],
-                            a, b, element, face)
+        cost[e] = side_cost(
+            code, given, point, element[h], (face[t], face[t + 1]), face[t + 2], twin[h], a, b, element, face
+        )
 
 
 @compiled
@@ -144,8 +148,27 @@ def record(log, costs, row, e, a, b, c, d, accepted, old, new):
 
 
 @inlined
-def inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
-            point, element, twin, slot, half, face, cost, settled, log, costs, row):
+def inspect(
+    e,
+    code,
+    given,
+    norm,
+    relative,
+    absolute,
+    min_angle,
+    min_area,
+    point,
+    element,
+    twin,
+    slot,
+    half,
+    face,
+    cost,
+    settled,
+    log,
+    costs,
+    row,
+):
     """Swap an edge if it is not locally optimal: REFUSED, TRIED or SWAPPED; or INVALID.
 
     With room in ``log`` and ``costs`` a tried swap is recorded there in the given row.
@@ -174,8 +197,9 @@ def inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
         least = combined(norm, across, 0.0, 0.0, 0.0, 0.0)  # whatever the sides cost
         if given is None and not traced and not is_below(norm, least, old, relative, absolute):
             return TRIED
-        fresh = new_costs(code, given, point, a, b, c, d, outer(h, j, twin), across, g, A, k, B,
-                          element, face)
+        fresh = new_costs(
+            code, given, point, a, b, c, d, outer(h, j, twin), across, g, A, k, B, element, face
+        )
         new = combined(norm, fresh[0], fresh[2], fresh[3], fresh[4], fresh[1])
     if given is not None and not (old >= 0 and are_costs(*fresh)):
         return INVALID

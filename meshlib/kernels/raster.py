@@ -11,10 +11,11 @@ A row of the grid cuts an element in the points between two of its sides::
 
 A point on a side is set by both neighbours, to the same value but for rounding.
 """
+
 from math import floor, inf
 
 from .backend import compiled
-from .shapes import INSIDE, is_flat, plane
+from .element_shapes import INSIDE, is_flat, plane
 
 SLACK = 1e-12  # of a cell, by which the rounding of a crossing may miss a point
 

@@ -5,6 +5,7 @@ runs can be watched and stopped with a whole mesh.  What has been done stands in
 tally: the place in the order, how many edges wait in the queue, swaps, sweeps, swaps
 tried, swaps before the sweep, and the edge of a cost that is not one, or -1.
 """
+
 from .backend import compiled
 from .codes import BEFORE, FAULT, INVALID, PLACE, REFUSED, SWAPPED, SWAPS, SWEEPS, TRIES, UNKNOWN, WAITING
 from .lop import after, before, inspect
@@ -43,8 +44,28 @@ def wake(e, settled, queue, place, n):
 
 
 @compiled
-def sweep(order, tally, limit, code, given, norm, relative, absolute, min_angle, min_area,
-          point, element, twin, slot, half, face, cost, settled, log, costs):
+def sweep(
+    order,
+    tally,
+    limit,
+    code,
+    given,
+    norm,
+    relative,
+    absolute,
+    min_angle,
+    min_area,
+    point,
+    element,
+    twin,
+    slot,
+    half,
+    face,
+    cost,
+    settled,
+    log,
+    costs,
+):
     """Inspect the next edges of a sweep, and swap those that are not locally optimal.
 
     An edge around which nothing has changed since it was last inspected is passed
@@ -58,8 +79,27 @@ def sweep(order, tally, limit, code, given, norm, relative, absolute, min_angle,
         if settled[e] != UNKNOWN and len(log) == 0:
             tried += settled[e]
             continue
-        found = inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
-                        point, element, twin, slot, half, face, cost, settled, log, costs, tried)
+        found = inspect(
+            e,
+            code,
+            given,
+            norm,
+            relative,
+            absolute,
+            min_angle,
+            min_area,
+            point,
+            element,
+            twin,
+            slot,
+            half,
+            face,
+            cost,
+            settled,
+            log,
+            costs,
+            tried,
+        )
         tried += found != REFUSED
         if found == SWAPPED:
             unsettle(half[e], element, twin, slot, settled, order, 0, 0)
@@ -86,22 +126,82 @@ def is_last(tally):
 
 
 @compiled
-def swept(order, tally, limit, code, given, norm, relative, absolute, min_angle, min_area,
-          point, element, twin, slot, half, face, cost, settled, log, costs):
+def swept(
+    order,
+    tally,
+    limit,
+    code,
+    given,
+    norm,
+    relative,
+    absolute,
+    min_angle,
+    min_area,
+    point,
+    element,
+    twin,
+    slot,
+    half,
+    face,
+    cost,
+    settled,
+    log,
+    costs,
+):
     """Sweep until nothing is swapped, or the limit is reached; whether all is done."""
     begin = tally[SWEEPS] * len(order) + tally[PLACE]
     while tally[SWEEPS] * len(order) + tally[PLACE] - begin < limit:
         left = begin + limit - tally[SWEEPS] * len(order) - tally[PLACE]
-        sweep(order, tally, left, code, given, norm, relative, absolute, min_angle, min_area,
-              point, element, twin, slot, half, face, cost, settled, log, costs)
+        sweep(
+            order,
+            tally,
+            left,
+            code,
+            given,
+            norm,
+            relative,
+            absolute,
+            min_angle,
+            min_area,
+            point,
+            element,
+            twin,
+            slot,
+            half,
+            face,
+            cost,
+            settled,
+            log,
+            costs,
+        )
         if is_last(tally):
             return True
     return False
 
 
 @compiled
-def drained(queue, tally, limit, code, given, norm, relative, absolute, min_angle, min_area,
-            point, element, twin, slot, half, face, cost, settled, log, costs):
+def drained(
+    queue,
+    tally,
+    limit,
+    code,
+    given,
+    norm,
+    relative,
+    absolute,
+    min_angle,
+    min_area,
+    point,
+    element,
+    twin,
+    slot,
+    half,
+    face,
+    cost,
+    settled,
+    log,
+    costs,
+):
     """Inspect the first of a queue of edges until it is empty; a swap queues what it may have changed.
 
     The queue holds all edges at first and is overwritten.  Returns whether all is done.
@@ -113,8 +213,27 @@ def drained(queue, tally, limit, code, given, norm, relative, absolute, min_angl
         first, waiting, limit = first + 1, waiting - 1, limit - 1
         if first == n:
             first = 0
-        found = inspect(e, code, given, norm, relative, absolute, min_angle, min_area,
-                        point, element, twin, slot, half, face, cost, settled, log, costs, tried)
+        found = inspect(
+            e,
+            code,
+            given,
+            norm,
+            relative,
+            absolute,
+            min_angle,
+            min_area,
+            point,
+            element,
+            twin,
+            slot,
+            half,
+            face,
+            cost,
+            settled,
+            log,
+            costs,
+            tried,
+        )
         tried += found != REFUSED
         if found == SWAPPED:
             waiting += unsettle(half[e], element, twin, slot, settled, queue, first + waiting, n)
@@ -126,16 +245,55 @@ def drained(queue, tally, limit, code, given, norm, relative, absolute, min_angl
 
 
 @compiled
-def walked(edges, rises, tally, code, given, norm, relative, absolute, min_angle, min_area,
-           point, element, twin, slot, half, face, cost, settled, log, costs):
+def walked(
+    edges,
+    rises,
+    tally,
+    code,
+    given,
+    norm,
+    relative,
+    absolute,
+    min_angle,
+    min_area,
+    point,
+    element,
+    twin,
+    slot,
+    half,
+    face,
+    cost,
+    settled,
+    log,
+    costs,
+):
     """Inspect edges one after the other; a swap may raise the sum of costs by less than its rise.
 
     The tolerances are not used.  Rows of what is recorded are numbered like the edges.
     """
     for i in range(len(edges)):
         e = edges[i]
-        found = inspect(e, code, given, norm, 0.0, -rises[i], min_angle, min_area,
-                        point, element, twin, slot, half, face, cost, settled, log, costs, i)
+        found = inspect(
+            e,
+            code,
+            given,
+            norm,
+            0.0,
+            -rises[i],
+            min_angle,
+            min_area,
+            point,
+            element,
+            twin,
+            slot,
+            half,
+            face,
+            cost,
+            settled,
+            log,
+            costs,
+            i,
+        )
         if found == SWAPPED:
             tally[SWAPS] += 1
         elif found == INVALID:

@@ -1,4 +1,5 @@
 """One sweep of the spring analogy (section 2.3.3) over flat arrays."""
+
 from math import hypot
 
 from .backend import compiled
@@ -46,8 +47,9 @@ def tangles(n, px, py, starts, second, third, least, place):
 
 
 @compiled
-def sweep(centres, rails, edge_starts, neighbours, constants, element_starts, second, third,
-          halvings, least, place):
+def sweep(
+    centres, rails, edge_starts, neighbours, constants, element_starts, second, third, halvings, least, place
+):
     """Move every centre to its equilibrium, or as far towards it as halvings of the step allow.
 
     ``place`` holds x and y of node after node.  Returns the largest movement and the

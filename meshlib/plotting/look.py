@@ -1,11 +1,20 @@
 """The look of all figures: colours, sizes, and empty panels."""
+
 from contextlib import contextmanager
 
 from ..errors import missing_extra
 
 # Okabe and Ito's palette, which readers with any kind of colour vision can tell apart.
-PALETTE = {"black": "#000000", "orange": "#E69F00", "sky": "#56B4E9", "green": "#009E73",
-           "yellow": "#F0E442", "blue": "#0072B2", "vermillion": "#D55E00", "purple": "#CC79A7"}
+PALETTE = {
+    "black": "#000000",
+    "orange": "#E69F00",
+    "sky": "#56B4E9",
+    "green": "#009E73",
+    "yellow": "#F0E442",
+    "blue": "#0072B2",
+    "vermillion": "#D55E00",
+    "purple": "#CC79A7",
+}
 INK, FAINT = "#3a3a3a", "#c4c4c4"  # edges of the mesh itself, and of a mesh in the background
 SHADE, ACCENT, SECOND = PALETTE["yellow"], PALETTE["vermillion"], PALETTE["blue"]
 VALUES, BRIGHTEST = "viridis", 0.9  # the end of viridis is too bright for lines on white
@@ -17,12 +26,25 @@ FONT_SIZE = 10
 MARGIN = 0.03  # around a mesh, relative to its extent
 TICKS, TICK_DIGITS = 3, 9
 
-RC = {"figure.dpi": RESOLUTION, "savefig.dpi": RESOLUTION, "figure.facecolor": "white",
-      "savefig.facecolor": "white", "axes.facecolor": "white", "text.color": "black",
-      "font.size": FONT_SIZE, "font.family": "DejaVu Sans", "axes.titlesize": FONT_SIZE,
-      "axes.labelsize": FONT_SIZE, "xtick.labelsize": FONT_SIZE - 1,
-      "ytick.labelsize": FONT_SIZE - 1, "axes.edgecolor": INK, "xtick.color": INK,
-      "ytick.color": INK, "axes.grid": False, "svg.hashsalt": "meshlib"}
+RC = {
+    "figure.dpi": RESOLUTION,
+    "savefig.dpi": RESOLUTION,
+    "figure.facecolor": "white",
+    "savefig.facecolor": "white",
+    "axes.facecolor": "white",
+    "text.color": "black",
+    "font.size": FONT_SIZE,
+    "font.family": "DejaVu Sans",
+    "axes.titlesize": FONT_SIZE,
+    "axes.labelsize": FONT_SIZE,
+    "xtick.labelsize": FONT_SIZE - 1,
+    "ytick.labelsize": FONT_SIZE - 1,
+    "axes.edgecolor": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "axes.grid": False,
+    "svg.hashsalt": "meshlib",
+}
 
 
 def pyplot():
@@ -82,8 +104,9 @@ def panels(count=1, size=None, labels=False, rows=1):
     """
     side, columns = size or WIDTH / 3, -(-count // rows)
     with style():
-        figure, axes = pyplot().subplots(rows, columns, squeeze=False, layout="constrained",
-                                          figsize=(columns * side, rows * side))
+        figure, axes = pyplot().subplots(
+            rows, columns, squeeze=False, layout="constrained", figsize=(columns * side, rows * side)
+        )
         for ax, letter in zip(axes.flat, "abcdefgh" if labels else "", strict=False):
             ax.set_title(f"({letter})", loc="left")
     return figure, axes.ravel()[:count]
@@ -93,8 +116,7 @@ def bare(ax, mesh):
     """Equal scales along x and y around a mesh, and no frame; returns the axes."""
     low, high = mesh.box
     margin = MARGIN * (high - low).max()
-    ax.set(aspect="equal", xlim=(low[0] - margin, high[0] + margin),
-           ylim=(low[1] - margin, high[1] + margin))
+    ax.set(aspect="equal", xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin))
     ax.axis("off")
     return ax
 
@@ -112,6 +134,7 @@ def framed(ax, mesh):
 def round_ticks(low, high):
     """About three round numbers from low to high, and their labels."""
     from matplotlib.ticker import MaxNLocator
+
     slack = MARGIN * (high - low)  # an end of 1e-8 still is 0 to the eye
     ticks = MaxNLocator(TICKS, steps=[1, 2, 5, 10]).tick_values(low - slack, high + slack)
     ticks = ticks[(ticks >= low - slack) & (ticks <= high + slack)]

@@ -1,4 +1,5 @@
 """Meshes, with elements, edges and nodes to look at."""
+
 import numpy as np
 
 from .look import ACCENT, EDGE_WIDTH, FONT_SIZE, INK, SHADE, THICK, bare, framed
@@ -7,8 +8,9 @@ MARK_SIZE, NUMBER_DISTANCE = 5.0, 9.0  # points
 SHADE_OPACITY = 0.55
 
 
-def plot_mesh(ax, mesh, elements=None, edges=None, nodes=None, numbers=None, colour=INK,
-              width=EDGE_WIDTH, ticks=False):
+def plot_mesh(
+    ax, mesh, elements=None, edges=None, nodes=None, numbers=None, colour=INK, width=EDGE_WIDTH, ticks=False
+):
     """Draw the edges of a mesh, and what is to be seen in it.
 
     Parameters
@@ -62,15 +64,21 @@ def highlight_edges(ax, mesh, edges, colour=ACCENT, width=THICK, linestyle="-"):
 
 def draw_edges(ax, mesh, edges, colour, width, **options):
     from matplotlib.collections import LineCollection
-    return ax.add_collection(LineCollection(mesh.nodes[mesh.edges[edges]], colors=colour,
-                                            linewidths=width, capstyle="round", **options))
+
+    return ax.add_collection(
+        LineCollection(
+            mesh.nodes[mesh.edges[edges]], colors=colour, linewidths=width, capstyle="round", **options
+        )
+    )
 
 
 def shade_elements(ax, mesh, elements, colour=SHADE, opacity=SHADE_OPACITY):
     """Fill some elements with a colour; returns the PolyCollection."""
     from matplotlib.collections import PolyCollection
-    return ax.add_collection(PolyCollection(mesh.corners[elements], facecolors=colour,
-                                            edgecolors="none", alpha=opacity, zorder=1))
+
+    return ax.add_collection(
+        PolyCollection(mesh.corners[elements], facecolors=colour, edgecolors="none", alpha=opacity, zorder=1)
+    )
 
 
 def mark_nodes(ax, mesh, nodes=True, colour=INK, size=MARK_SIZE):
@@ -82,9 +90,19 @@ def mark_nodes(ax, mesh, nodes=True, colour=INK, size=MARK_SIZE):
 def number_nodes(ax, mesh, nodes=True, labels=None, distance=NUMBER_DISTANCE, size=FONT_SIZE):
     """Write numbers, or other labels, where they cross no edge; returns the texts."""
     nodes = np.arange(mesh.n_nodes) if nodes is True else np.asarray(nodes)
-    return [ax.annotate(str(label), mesh.nodes[node], distance * _free_direction(mesh, node),
-                        textcoords="offset points", size=size, ha="center", va="center", zorder=5)
-            for node, label in zip(nodes, nodes if labels is None else labels, strict=True)]
+    return [
+        ax.annotate(
+            str(label),
+            mesh.nodes[node],
+            distance * _free_direction(mesh, node),
+            textcoords="offset points",
+            size=size,
+            ha="center",
+            va="center",
+            zorder=5,
+        )
+        for node, label in zip(nodes, nodes if labels is None else labels, strict=True)
+    ]
 
 
 def _free_direction(mesh, node):

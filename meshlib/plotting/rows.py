@@ -1,4 +1,5 @@
 """The standard row: mesh, surface and lines of constant value."""
+
 from .look import WIDTH, pyplot, style
 from .meshes import plot_mesh
 from .surfaces import LEVELS, plot_contours, plot_surface, value_limits
@@ -8,8 +9,9 @@ SHARES = {FLAT: 1, SOLID: 1.25}  # of the width
 ROW_HEIGHT = 0.3 * WIDTH
 
 
-def representation(interpolant, before=None, labels=("before", "after"), levels=LEVELS, limits=None,
-                   view=None, **highlights):
+def representation(
+    interpolant, before=None, labels=("before", "after"), levels=LEVELS, limits=None, view=None, **highlights
+):
     """Mesh, surface and lines of constant value side by side.
 
     Parameters
@@ -88,7 +90,18 @@ def _rows(count, kinds):
     shares = [SHARES[kind] for kind in kinds]
     width = WIDTH * sum(shares) / sum(SHARES[kind] for kind in ROW)
     figure = pyplot().figure(figsize=(width, count * ROW_HEIGHT))
-    grid = figure.add_gridspec(count, len(kinds), width_ratios=shares, left=0.05, right=0.98,
-                               bottom=0.09 / count, top=1 - 0.03 / count, wspace=0.2, hspace=0.15)
-    return figure, [[figure.add_subplot(grid[row, column], projection=kind)
-                     for column, kind in enumerate(kinds)] for row in range(count)]
+    grid = figure.add_gridspec(
+        count,
+        len(kinds),
+        width_ratios=shares,
+        left=0.05,
+        right=0.98,
+        bottom=0.09 / count,
+        top=1 - 0.03 / count,
+        wspace=0.2,
+        hspace=0.15,
+    )
+    return figure, [
+        [figure.add_subplot(grid[row, column], projection=kind) for column, kind in enumerate(kinds)]
+        for row in range(count)
+    ]

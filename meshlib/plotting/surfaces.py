@@ -1,11 +1,12 @@
 """Interpolants and functions, as surfaces and by their lines of constant value."""
+
 from functools import lru_cache
 
 import numpy as np
 
 from .. import problems
-from ..interpolant import Interpolant
-from ..refinement import refined
+from ..interpolation.interpolant import Interpolant
+from ..refinement.refined import refined
 from .look import BRIGHTEST, EDGE_WIDTH, FAINT, INK, VALUES, bare, framed, pyplot, round_ticks
 from .meshes import draw_edges, plot_mesh
 
@@ -48,13 +49,19 @@ def plot_surface(ax, surface, limits=None, view=None):
     >>> plt.close(ax.figure)
     """
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
     u_h, limits = _interpolant(surface), value_limits(surface, limits=limits)
     corners = np.column_stack([u_h.mesh.nodes, u_h.values])[u_h.mesh.elements]
     view = view or _uphill(u_h)
     colours = _lit(corners, limits, view)
     own_edges = surface is u_h
-    facets = Poly3DCollection(corners, facecolors=colours, edgecolors=INK if own_edges else colours,
-                              linewidths=EDGE_WIDTH / 2, clip_on=False)
+    facets = Poly3DCollection(
+        corners,
+        facecolors=colours,
+        edgecolors=INK if own_edges else colours,
+        linewidths=EDGE_WIDTH / 2,
+        clip_on=False,
+    )
     ax.add_collection3d(facets)
     _box(ax, u_h.mesh, limits, view)
     return facets
@@ -137,8 +144,15 @@ def plot_contours(ax, surface, levels=LEVELS, limits=None, ticks=False):
 
 
 def _contours(ax, u_h, levels, limits):
-    return ax.tricontour(*u_h.mesh.nodes.T, u_h.mesh.elements, u_h.values, levels=levels, zorder=3,
-                         colors=colours_of(levels, limits), linewidths=1.5 * EDGE_WIDTH)
+    return ax.tricontour(
+        *u_h.mesh.nodes.T,
+        u_h.mesh.elements,
+        u_h.values,
+        levels=levels,
+        zorder=3,
+        colors=colours_of(levels, limits),
+        linewidths=1.5 * EDGE_WIDTH,
+    )
 
 
 def spaced(limits, count=LEVELS):

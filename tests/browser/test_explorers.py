@@ -1,4 +1,5 @@
 """Every control of every explorer, by keyboard and by mouse, against what Python computes."""
+
 import numpy as np
 import pytest
 from visiting import PLACES, assert_numbers, elements, shown, stage_of, visited
@@ -16,6 +17,7 @@ def pages(chromium, site):
             opened[PLACES[name]] = chromium.new_page(reduced_motion="reduce")
             visited(opened[PLACES[name]], site, name)
         return opened[PLACES[name]].locator(f".tag_explorer-{name}")
+
     yield explorer
     for page in opened.values():
         page.close()

@@ -1,4 +1,5 @@
 """An explorer in JupyterLab: the kernel computes states that no page has."""
+
 import os
 import socket
 import statistics
@@ -40,13 +41,27 @@ def lab(tmp_path_factory):
     cell = nbformat.v4.new_code_cell(CODE)
     notebook = nbformat.v4.new_notebook(cells=[cell], metadata={"kernelspec": KERNEL})
     nbformat.write(notebook, folder / "explorer.ipynb")
-    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", f"--port={port}",
-               "--IdentityProvider.token=", "--ServerApp.port_retries=0", "--expose-app-in-browser",
-               f"--ServerApp.root_dir={folder}"]
-    own = {"JUPYTER_CONFIG_DIR": str(folder / "config"), "JUPYTERLAB_SETTINGS_DIR": str(folder / "settings"),
-           "JUPYTERLAB_WORKSPACES_DIR": str(folder / "workspaces")}
-    with open(folder / "log", "w") as log, subprocess.Popen(command, env=os.environ | own, stdout=log,
-                                                            stderr=log) as process:
+    command = [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        "--no-browser",
+        "--allow-root",
+        f"--port={port}",
+        "--IdentityProvider.token=",
+        "--ServerApp.port_retries=0",
+        "--expose-app-in-browser",
+        f"--ServerApp.root_dir={folder}",
+    ]
+    own = {
+        "JUPYTER_CONFIG_DIR": str(folder / "config"),
+        "JUPYTERLAB_SETTINGS_DIR": str(folder / "settings"),
+        "JUPYTERLAB_WORKSPACES_DIR": str(folder / "workspaces"),
+    }
+    with (
+        open(folder / "log", "w") as log,
+        subprocess.Popen(command, env=os.environ | own, stdout=log, stderr=log) as process,
+    ):
         address = f"http://127.0.0.1:{port}"
         wait_for(f"{address}/api", process)
         yield address

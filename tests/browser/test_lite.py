@@ -2,6 +2,7 @@
 
 Two chapters by default, all of them with MESHLIB_LITE=all, which takes more than an hour.
 """
+
 import os
 import re
 from pathlib import Path
@@ -62,6 +63,7 @@ def lite(chromium, address, pyodide):
         else:
             elsewhere.append(route.request.url)
             route.abort()
+
     context.route(lambda url: not url.startswith((address, "data:", "blob:")), answer)
     yield context.new_page(), elsewhere
     context.close()
@@ -76,8 +78,11 @@ def said(cell):
         elif output.output_type == "error":
             found.append((output.ename, output.evalue))
         else:
-            found += sorted((kind, text) for kind, text in output.data.items()
-                            if not kind.startswith(("image/", "application/")))
+            found += sorted(
+                (kind, text)
+                for kind, text in output.data.items()
+                if not kind.startswith(("image/", "application/"))
+            )
     return [(kind, text) for kind, text in found if not text.startswith(ONCE_ON_STDERR)]
 
 

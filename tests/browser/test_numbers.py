@@ -1,4 +1,5 @@
 """Numbers of random states, and how fast and how heavy explorers are."""
+
 import gzip
 import re
 import statistics
@@ -50,8 +51,10 @@ def test_random_states_have_the_numbers_of_python(chromium, site, name):
             scene = exploration.computed(settings)
             frame = int(rng.integers(scene.frames))
             values = "&".join(f"{key}={value}" for key, value in settings.items())
-            page.evaluate("hash => { location.hash = hash; window.dispatchEvent(new Event('hashchange')); }",
-                          f"explorer-{name}?{values}&frame={frame}")
+            page.evaluate(
+                "hash => { location.hash = hash; window.dispatchEvent(new Event('hashchange')); }",
+                f"explorer-{name}?{values}&frame={frame}",
+            )
             assert_numbers(shown(explorer), scene, frame)
 
 
@@ -91,19 +94,23 @@ def test_an_explorer_is_usable_soon(chromium, address, quiet, name):
 
 
 def test_pages_carry_no_state_of_widgets_that_they_do_not_show(site):
-    assert not [path for path in pages_of(site)
-                if "widget-state+json" in (site / path).read_text(encoding="utf-8")]
+    assert not [
+        path for path in pages_of(site) if "widget-state+json" in (site / path).read_text(encoding="utf-8")
+    ]
 
 
 def test_no_page_waits_for_its_icons(site):
     for path in pages_of(site):
-        script, = re.findall("<script.*fontawesome.js", (site / path).read_text(encoding="utf-8"))
+        (script,) = re.findall("<script.*fontawesome.js", (site / path).read_text(encoding="utf-8"))
         assert " defer " in script, path
 
 
 @pytest.mark.parametrize("place", sorted(set(PLACES.values())))
 def test_explorers_of_a_page_weigh_little(site, place):
     static = site / "_static"
-    files = [static / "explorers.js", static / "explorers.css",
-             *(static / "explorers" / f"{name}.js" for name in PLACES if PLACES[name] == place)]
+    files = [
+        static / "explorers.js",
+        static / "explorers.css",
+        *(static / "explorers" / f"{name}.js" for name in PLACES if PLACES[name] == place),
+    ]
     assert sum(len(gzip.compress(file.read_bytes())) for file in files) <= WEIGHT

@@ -1,11 +1,16 @@
 """Every page of the built book in a real browser, from a server and from the disk."""
+
 import pytest
 from conftest import SITE
 from visiting import explorers_of, pages_of, watched
 
 PAGES = pages_of(SITE)
-EXPLORERS = {"notebooks/03-methods.html": 1, "notebooks/05-results.html": 2,
-             "notebooks/06-modifications.html": 2, "notebooks/07-further-work.html": 1}
+EXPLORERS = {
+    "notebooks/03-methods.html": 1,
+    "notebooks/05-results.html": 2,
+    "notebooks/06-modifications.html": 2,
+    "notebooks/07-further-work.html": 1,
+}
 
 
 @pytest.mark.parametrize("name", PAGES)
@@ -28,7 +33,9 @@ def test_explorers_fit_a_phone(chromium, site, name):
         page.goto(f"{site.as_uri()}/{name}")
         for explorer in explorers_of(page):
             # the page scrolls down, not sideways, and nothing of an explorer sticks out
-            right = explorer.evaluate("e => Math.max(...Array.from(e.querySelectorAll('.mesh-page *'),"
-                                      " part => part.getBoundingClientRect().right))")
+            right = explorer.evaluate(
+                "e => Math.max(...Array.from(e.querySelectorAll('.mesh-page *'),"
+                " part => part.getBoundingClientRect().right))"
+            )
             assert right <= 375
         assert page.evaluate("document.documentElement.scrollWidth") <= 375

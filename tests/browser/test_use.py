@@ -1,4 +1,5 @@
 """Explorers in use: links, files, costs under the pointer, films, themes, and readers with aids."""
+
 import re
 import shutil
 import subprocess
@@ -92,8 +93,10 @@ def test_arrow_keys_tell_the_cost_of_one_edge_after_the_other(page, site, criter
     explorer = visited(page, site, "swaps", f"#explorer-swaps?criterion={criterion}&frame=0")
     scene = explorers.SWAPS.computed(explorers.SWAPS.initial | {"criterion": criterion})
     costs = criteria.costs(scene.start, scene.function, criterion)
-    expected = {frozenset(map(tuple, scene.start.nodes[edge].round(2).tolist())): cost
-                for edge, cost in zip(scene.start.edges, costs, strict=True)}
+    expected = {
+        frozenset(map(tuple, scene.start.nodes[edge].round(2).tolist())): cost
+        for edge, cost in zip(scene.start.edges, costs, strict=True)
+    }
     seen, mesh = set(), explorer.locator(".mesh canvas")
     for _ in range(20):
         mesh.press("ArrowRight")
@@ -115,10 +118,12 @@ def test_the_pointer_tells_edges_and_elements(page, site):
         size = canvas.bounding_box()["width"] - 2 * MARGIN
         canvas.hover(position={"x": MARGIN + size * x, "y": MARGIN + size * (1 - y)})
         return told(explorer)
+
     angle = quality(scene.start).maximum_angle[largest]
     cost = np.radians(angle) - np.pi / 3
     assert hover(*scene.start.corners[largest].mean(axis=0)) == (
-        f"Element with an angle of {angle:.4g}°: largest-angle {cost:.4g}.")
+        f"Element with an angle of {angle:.4g}°: largest-angle {cost:.4g}."
+    )
     edge = scene.start.nodes[scene.start.edges[~scene.start.boundary]][0]
     assert sorted(coordinates(hover(*edge.mean(axis=0)))) == sorted(map(tuple, edge.tolist()))
     assert shown(explorer)["pictures"][0] != plain[0]
@@ -234,8 +239,12 @@ def axe(tmp_path_factory):
     npm, folder = shutil.which("npm"), tmp_path_factory.mktemp("axe")
     if not npm:
         pytest.skip("no npm, from which axe-core comes")
-    done = subprocess.run([npm, "install", "--prefix", folder, "--no-audit", "--no-fund", AXE],
-                          capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        [npm, "install", "--prefix", folder, "--no-audit", "--no-fund", AXE],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
     if done.returncode:
         pytest.skip(f"axe-core could not be installed: {done.stderr.strip().splitlines()[-1:]}")
     return (folder / "node_modules" / "axe-core" / "axe.min.js").read_text(encoding="utf-8")
@@ -250,5 +259,6 @@ def test_no_page_has_a_serious_fault(chromium, site, axe, name, scheme):
         page.evaluate(axe)
         found = page.evaluate("axe.run({ resultTypes: ['violations'] })")
         serious = [fault for fault in found["violations"] if fault["impact"] in ("serious", "critical")]
-        assert not serious, [(fault["id"], [node["html"][:150] for node in fault["nodes"][:5]])
-                             for fault in serious]
+        assert not serious, [
+            (fault["id"], [node["html"][:150] for node in fault["nodes"][:5]]) for fault in serious
+        ]

@@ -1,4 +1,5 @@
 """What the browser tests share: the site on a server, and a watch over what a page asks for."""
+
 import functools
 import os
 import threading
@@ -13,8 +14,14 @@ from meshlib import Mesh
 from meshlib.explorer.scene import Stage, numbers
 
 SUBPATH = "/some/where"  # a site need not be at the root of its host
-PLACES = {"swaps": "03-methods", "refinement": "05-results", "movement": "05-results",
-          "limits": "06-modifications", "orders": "06-modifications", "approximation": "07-further-work"}
+PLACES = {
+    "swaps": "03-methods",
+    "refinement": "05-results",
+    "movement": "05-results",
+    "limits": "06-modifications",
+    "orders": "06-modifications",
+    "approximation": "07-further-work",
+}
 SHOWN = """e => { const shown = e.querySelector('.mesh-explorer').shown(), { mesh } = shown;
     return { numbers: shown.numbers.map(([label, value]) => [label, value]), frame: shown.frame,
              title: e.querySelector('.title').textContent,
@@ -37,7 +44,7 @@ class Handler(SimpleHTTPRequestHandler):
     def translate_path(self, path):
         """The file of a path; outside the sub-path there is none."""
         inside = path.startswith(SUBPATH + "/")
-        return super().translate_path(path[len(SUBPATH):] if inside else "/nothing")
+        return super().translate_path(path[len(SUBPATH) :] if inside else "/nothing")
 
     def do_GET(self):
         """As asked for; of the host, not of the site, is the icon of a page that names none."""
@@ -72,17 +79,23 @@ def watched(page, address):
     page.on("pageerror", lambda error: wrong.append(f"uncaught: {error}"))
     page.on("requestfailed", lambda r: wrong.append(f"failed: {r.url}"))
     page.on("response", lambda r: r.status >= 400 and wrong.append(f"{r.status}: {r.url}"))
-    page.on("request", lambda r: r.url.startswith((address, "data:", "blob:"))
-            or wrong.append(f"elsewhere: {r.url}"))
+    page.on(
+        "request",
+        lambda r: r.url.startswith((address, "data:", "blob:")) or wrong.append(f"elsewhere: {r.url}"),
+    )
     return wrong
 
 
 def pages_of(site):
     """The pages of a site, but for other people's programs and those that only lead to another page."""
-    pages = [path for path in site.rglob("*.html")
-             if path.relative_to(site).parts[0] not in ("_static", "lite")]
-    return sorted(str(path.relative_to(site)) for path in pages
-                  if 'http-equiv="refresh"' not in path.read_text(encoding="utf-8")[:1000].lower())
+    pages = [
+        path for path in site.rglob("*.html") if path.relative_to(site).parts[0] not in ("_static", "lite")
+    ]
+    return sorted(
+        str(path.relative_to(site))
+        for path in pages
+        if 'http-equiv="refresh"' not in path.read_text(encoding="utf-8")[:1000].lower()
+    )
 
 
 def explorers_of(page):

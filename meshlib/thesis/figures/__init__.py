@@ -3,6 +3,7 @@
 In a notebook end the call with a semicolon, ``figures.figure_5_8();``, and the
 figure is shown once.
 """
+
 from . import chapter2, chapter3, chapter4, chapter5, chapter6
 from .chapter2 import *  # noqa: F403
 from .chapter3 import *  # noqa: F403
@@ -10,5 +11,4 @@ from .chapter4 import *  # noqa: F403
 from .chapter5 import *  # noqa: F403
 from .chapter6 import *  # noqa: F403
 
-__all__ = [*chapter2.__all__, *chapter3.__all__, *chapter4.__all__, *chapter5.__all__,
-           *chapter6.__all__]
+__all__ = [*chapter2.__all__, *chapter3.__all__, *chapter4.__all__, *chapter5.__all__, *chapter6.__all__]

@@ -1,9 +1,10 @@
 """Figures of sections 7.3 and 7.4: a ramp turned over a lattice, and springs."""
+
 import numpy as np
 
 from ... import plotting
-from ...interpolant import Interpolant
-from .. import alignment
+from ...interpolation.interpolant import Interpolant
+from ..studies import section_7_3_alignment as alignment
 
 __all__ = ["aligned_meshes", "jitter", "repaired", "repaired_mesh", "turned"]
 
@@ -14,8 +15,13 @@ SHOWN_JITTERS = (0.0, 0.1, 0.3, 0.5)
 MESHES = 0.0, 20.0, 45.0, 45.5  # degrees
 LEVELS = [0.1, 0.3, 0.5, 0.7, 0.9]
 BAD = 0.0  # the angle at which swapping can do nothing
-LOOKS = {"start": ("black", ":"), "swapped": ("vermillion", "-"), "springs": ("green", "-."),
-         "springs, swapped": ("blue", "-"), "springs, swapped, 8°": ("sky", "--")}
+LOOKS = {
+    "start": ("black", ":"),
+    "swapped": ("vermillion", "-"),
+    "springs": ("green", "-."),
+    "springs, swapped": ("blue", "-"),
+    "springs, swapped, 8°": ("sky", "--"),
+}
 CURVE_WIDTH, FINE_WIDTH = 1.6, 0.6  # points, of curves and of the edges of crowded meshes
 HEADROOM = 1.25  # above the curves, for a legend
 
@@ -35,8 +41,14 @@ def _over_angles(strategies):
     for name in strategies:
         colour, line = LOOKS[name]
         for ax, values in zip(axes, alignment.curve(name), strict=True):
-            ax.plot(alignment.ALL_ANGLES, values, line, color=plotting.PALETTE[colour], label=name,
-                    linewidth=CURVE_WIDTH)
+            ax.plot(
+                alignment.ALL_ANGLES,
+                values,
+                line,
+                color=plotting.PALETTE[colour],
+                label=name,
+                linewidth=CURVE_WIDTH,
+            )
     _marks(axes)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(strategies))
     return figure
@@ -45,8 +57,9 @@ def _over_angles(strategies):
 def _stacked():
     """Two wide panels, one above the other, over the angles."""
     with plotting.style():
-        figure, axes = plotting.look.pyplot().subplots(2, 1, sharex=True, layout="constrained",
-                                                       figsize=(plotting.WIDTH, HEIGHT))
+        figure, axes = plotting.look.pyplot().subplots(
+            2, 1, sharex=True, layout="constrained", figsize=(plotting.WIDTH, HEIGHT)
+        )
     axes[0].set(ylabel="$L_2$ error", xlim=(-1, 91), xticks=range(0, 91, 15))
     axes[1].set(ylabel="mean skewness", xlabel="angle of the contours, degrees")
     for ax in axes:
@@ -59,8 +72,14 @@ def _marks(axes):
     for angle, name in zip(alignment.ALIGNED, MARKED, strict=True):
         for ax in axes:
             ax.axvline(angle, color=plotting.FAINT, linewidth=plotting.look.EDGE_WIDTH, zorder=0)
-        axes[0].annotate(name, (angle, 1), (0, 3), xycoords=("data", "axes fraction"),
-                         textcoords="offset points", ha="center")
+        axes[0].annotate(
+            name,
+            (angle, 1),
+            (0, 3),
+            xycoords=("data", "axes fraction"),
+            textcoords="offset points",
+            ha="center",
+        )
     for ax in axes:
         ax.set_ylim(0)
 
@@ -86,20 +105,22 @@ def _over_jitters(ax):
     """Mean over the angles, and the largest, of what each strategy leaves."""
     shares = 100 * np.array(alignment.JITTERS)
     for name in ("start", "swapped", "springs, swapped"):
-        found = [alignment.curve(name, COARSE, j, alignment.SEEDS if j else (0,))[0]
-                 for j in alignment.JITTERS]
+        found = [
+            alignment.curve(name, COARSE, j, alignment.SEEDS if j else (0,))[0] for j in alignment.JITTERS
+        ]
         colour = plotting.PALETTE[LOOKS[name][0]]
-        ax.plot(shares, np.mean(found, axis=1), LOOKS[name][1], marker="o", markersize=4, color=colour,
-                label=name)
-        ax.fill_between(shares, np.min(found, axis=1), np.max(found, axis=1), color=colour, alpha=0.15,
-                        linewidth=0)
+        ax.plot(
+            shares, np.mean(found, axis=1), LOOKS[name][1], marker="o", markersize=4, color=colour, label=name
+        )
+        ax.fill_between(
+            shares, np.min(found, axis=1), np.max(found, axis=1), color=colour, alpha=0.15, linewidth=0
+        )
     ax.set(xlabel="jitter, per cent of the spacing", ylabel="$L_2$ error")
 
 
 def aligned_meshes():
     """Swapped meshes at four angles, with contours of the ramp."""
-    return _meshes([("swapped", angle) for angle in MESHES],
-                   [f"{angle:g}°" for angle in MESHES])
+    return _meshes([("swapped", angle) for angle in MESHES], [f"{angle:g}°" for angle in MESHES])
 
 
 def repaired_mesh():

@@ -1,9 +1,10 @@
 """Figures of the section on annealing: how far from the best, and how near."""
+
 import numpy as np
 
 from ... import plotting, problems
-from ...interpolant import Interpolant
-from .. import beyond
+from ...interpolation.interpolant import Interpolant
+from ..studies import section_7_6_beyond as beyond
 
 __all__ = ["annealed", "distances", "every_cost"]
 
@@ -54,8 +55,16 @@ def distances():
         for way, side in SIDES.items():
             _dots(ax, beyond.distances(*case), row + side * APART, way, way if row == 0 else None)
     for way, side in SIDES.items():
-        ax.annotate("found", (FOUND + side * COLUMN, 1), (0, 3), xycoords="axes fraction", ha="right",
-                    textcoords="offset points", fontsize="small", color=_colour(way))
+        ax.annotate(
+            "found",
+            (FOUND + side * COLUMN, 1),
+            (0, 3),
+            xycoords="axes fraction",
+            ha="right",
+            textcoords="offset points",
+            fontsize="small",
+            color=_colour(way),
+        )
     _percent_axes(ax, [beyond.title(*case) for case in beyond.CASES])
     figure.legend(loc="outside lower center", ncols=len(SIDES), markerscale=2)
     return figure
@@ -64,10 +73,24 @@ def distances():
 def _dots(ax, found, y, way, label):
     """A row of dots, spread so that equal ones are told apart, and the share at 0."""
     values = np.sort(100 * found.excess(way))
-    ax.plot(values, y + SPREAD * np.linspace(-1, 1, len(values)), "o", color=_colour(way), markersize=3,
-            alpha=0.6, label=label)
-    ax.annotate(f"{100 * found.share(way):.0f} %", (FOUND + SIDES[way] * COLUMN, round(y)), ha="right",
-                va="center", xycoords=("axes fraction", "data"), fontsize="small", color=_colour(way))
+    ax.plot(
+        values,
+        y + SPREAD * np.linspace(-1, 1, len(values)),
+        "o",
+        color=_colour(way),
+        markersize=3,
+        alpha=0.6,
+        label=label,
+    )
+    ax.annotate(
+        f"{100 * found.share(way):.0f} %",
+        (FOUND + SIDES[way] * COLUMN, round(y)),
+        ha="right",
+        va="center",
+        xycoords=("axes fraction", "data"),
+        fontsize="small",
+        color=_colour(way),
+    )
 
 
 def _colour(way):
@@ -78,8 +101,13 @@ def _percent_axes(ax, names):
     """Per cent along x, linear below one and logarithmic above, and a name for each row."""
     ax.set_xscale("symlog", linthresh=LINEAR)
     ax.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
-    ax.set(yticks=range(len(names)), yticklabels=names, ylim=(len(names) - 0.4, -0.6),
-           xlim=(-LINEAR / 10, MOST), xlabel="cost above that of the best mesh, per cent")
+    ax.set(
+        yticks=range(len(names)),
+        yticklabels=names,
+        ylim=(len(names) - 0.4, -0.6),
+        xlim=(-LINEAR / 10, MOST),
+        xlabel="cost above that of the best mesh, per cent",
+    )
     ax.tick_params(axis="y", length=0)
     ax.spines[["top", "right", "left"]].set_visible(False)
 
@@ -88,12 +116,19 @@ def annealed():
     """Cost while it gets colder, and the meshes that swapping and annealing end in."""
     pyplot, found = plotting.look.pyplot(), beyond.large(*SHOWN)
     with plotting.style():
-        figure, axes = pyplot.subplots(1, 3, layout="constrained", width_ratios=(1.1, 1, 1),
-                                       figsize=(plotting.WIDTH, plotting.WIDTH / 2.75))
+        figure, axes = pyplot.subplots(
+            1,
+            3,
+            layout="constrained",
+            width_ratios=(1.1, 1, 1),
+            figsize=(plotting.WIDTH, plotting.WIDTH / 2.75),
+        )
     _cooling(axes[0], found)
     run = min((beyond.annealing(*SHOWN, seed) for seed in beyond.SEEDS), key=lambda run: run.cost_after)
-    ends = (("swapped", beyond.in_natural_order(*SHOWN), found.swapped, found.error_swapped),
-            ("annealed", run.mesh, run.cost_after, found.error_annealed))
+    ends = (
+        ("swapped", beyond.in_natural_order(*SHOWN), found.swapped, found.error_swapped),
+        ("annealed", run.mesh, run.cost_after, found.error_annealed),
+    )
     for ax, (way, mesh, cost, error) in zip(axes[1:], ends, strict=True):
         plotting.plot_contours(ax, Interpolant(mesh, problems.functions[SHOWN[1]]), CONTOURS)
         plotting.plot_mesh(ax, mesh, width=FINE_WIDTH)
@@ -107,12 +142,24 @@ def _cooling(ax, found):
         run = beyond.annealing(*SHOWN, seed)
         ax.plot(run.temperatures, run.history, color=plotting.PALETTE["sky"], linewidth=0.8)
     orders = f"best of {beyond.ORDERS} orders"
-    marks = (("swapped", found.swapped, "vermillion"), (orders, found.orders, "orange"),
-             ("proved optimum", found.best, "black"))
+    marks = (
+        ("swapped", found.swapped, "vermillion"),
+        (orders, found.orders, "orange"),
+        ("proved optimum", found.best, "black"),
+    )
     for text, cost, colour in marks:
         ax.axhline(cost, color=plotting.PALETTE[colour], linestyle="--", linewidth=1)
-        ax.annotate(text, (1, cost), (-2, 2), xycoords=("axes fraction", "data"), textcoords="offset points",
-                    ha="right", va="bottom", fontsize="small", color=plotting.PALETTE[colour])
+        ax.annotate(
+            text,
+            (1, cost),
+            (-2, 2),
+            xycoords=("axes fraction", "data"),
+            textcoords="offset points",
+            ha="right",
+            va="bottom",
+            fontsize="small",
+            color=plotting.PALETTE[colour],
+        )
     ax.set(xscale="log", xlabel="temperature", ylabel=f"cost, {beyond.title(*SHOWN[2:])}", ylim=(0, None))
     ax.invert_xaxis()
     ax.spines[["top", "right"]].set_visible(False)

@@ -1,8 +1,9 @@
 """Figure of section 7.2: polygons in place of a curved domain."""
+
 import numpy as np
 
 from ... import curves, plotting
-from .. import boundaries
+from ..studies import section_7_2_boundaries as boundaries
 
 __all__ = ["boundaries_compared"]
 
@@ -10,8 +11,11 @@ FEW, SOME = 10, 40  # nodes along the ellipse, and of the mesh of the trefoil
 SHARES, HEIGHT = (0.55, 1.0), 5.2  # of the height, and inches
 FINE = 400  # points of a curve that is drawn
 THIN = 0.8  # points
-LOOKS = {"curvature": (plotting.SECOND, "o"), "length": (plotting.ACCENT, "s"),
-         "parameter": (plotting.PALETTE["black"], "^")}
+LOOKS = {
+    "curvature": (plotting.SECOND, "o"),
+    "length": (plotting.ACCENT, "s"),
+    "parameter": (plotting.PALETTE["black"], "^"),
+}
 LINES = {"ellipse": "-", "trefoil": "--"}
 SAME = "ellipse", "parameter"  # the best polygons of an ellipse are those of its parameter
 
@@ -62,11 +66,23 @@ def _areas(ax):
         for density, (colour, marker) in LOOKS.items():
             if (name, density) != SAME:
                 ax.axhline(boundaries.limits(name)[density], color=plotting.FAINT, linewidth=THIN, zorder=0)
-                ax.semilogx(boundaries.NODES, boundaries.lost(name, density), color=colour, marker=marker,
-                            markersize=4, linestyle=dashes, linewidth=1.5 * THIN,
-                            label=f"{name}, {boundaries.DENSITIES[density]}")
-    ax.set(xlabel="nodes $n$ on the boundary", ylabel="$n^2$ times the area lost", ylim=(0, 170),
-           xticks=boundaries.NODES, xticklabels=boundaries.NODES)
+                ax.semilogx(
+                    boundaries.NODES,
+                    boundaries.lost(name, density),
+                    color=colour,
+                    marker=marker,
+                    markersize=4,
+                    linestyle=dashes,
+                    linewidth=1.5 * THIN,
+                    label=f"{name}, {boundaries.DENSITIES[density]}",
+                )
+    ax.set(
+        xlabel="nodes $n$ on the boundary",
+        ylabel="$n^2$ times the area lost",
+        ylim=(0, 170),
+        xticks=boundaries.NODES,
+        xticklabels=boundaries.NODES,
+    )
     ax.minorticks_off()
     ax.spines[["top", "right"]].set_visible(False)
     ax.legend(fontsize="small", frameon=False, loc="lower right", ncols=2, handlelength=2.4)

@@ -1,4 +1,5 @@
 """Figures of chapter 2: what a mesh is."""
+
 import meshlib as ml
 from meshlib.plotting import ACCENT, mark_nodes, number_nodes, panels, plot_mesh, style
 
@@ -18,7 +19,7 @@ def figure_2_1():
     below = unclosed(mesh, split(mesh, [1], "longest-edge"))
     figure, (ax,) = panels(size=PANEL)
     plot_mesh(ax, below, nodes=True)
-    node, = hanging(below)
+    (node,) = hanging(below)
     mark_nodes(ax, below, [node], colour=ACCENT)
     number_nodes(ax, below, [0, node, 1], labels=[1, 2, 3])
     return figure

@@ -1,19 +1,12 @@
 """Figures of chapter 4: nodes, functions and start meshes."""
+
 import numpy as np
 
 import meshlib as ml
 from meshlib import problems
-from meshlib.plotting import (
-    bare,
-    framed,
-    function_view,
-    mark_nodes,
-    number_nodes,
-    panels,
-    plot_mesh,
-    style,
-)
-from meshlib.predicates import incircle
+from meshlib.geometry.predicates import incircle
+from meshlib.plotting import bare, framed, function_view, mark_nodes, number_nodes, panels, plot_mesh, style
+from meshlib.problems.start_meshes import SQUARE_NODES
 
 __all__ = [f"figure_4_{k}" for k in range(1, 10)]
 
@@ -32,7 +25,7 @@ def figure_4_1():
 def figure_4_2():
     """The four-node mesh from which the 81 nodes come about (Figure 4.2)."""
     figure, (ax,) = panels(size=PANEL)
-    plot_mesh(ax, ml.delaunay(problems.SQUARE_NODES), nodes=True, ticks=True)
+    plot_mesh(ax, ml.delaunay(SQUARE_NODES), nodes=True, ticks=True)
     return figure
 
 

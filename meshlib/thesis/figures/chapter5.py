@@ -1,13 +1,30 @@
 """Figures of chapter 5: start meshes, and what the building blocks make of them."""
+
 import numpy as np
 
 from ... import plotting
-from ..experiments import run
+from ..studies.experiments import run
 from .adapted import DOT, DOUBLE, HEAVY, refined, started, swapped
 
-__all__ = ["figure_5_1", "figure_5_2", "figure_5_3", "figure_5_4", "figure_5_5", "figure_5_6",
-           "figure_5_7", "figure_5_8", "figure_5_9", "figure_5_10", "figure_5_11", "figure_5_12",
-           "figure_5_13", "figure_5_14", "figure_5_15", "figure_5_16", "figure_5_17"]
+__all__ = [
+    "figure_5_1",
+    "figure_5_2",
+    "figure_5_3",
+    "figure_5_4",
+    "figure_5_5",
+    "figure_5_6",
+    "figure_5_7",
+    "figure_5_8",
+    "figure_5_9",
+    "figure_5_10",
+    "figure_5_11",
+    "figure_5_12",
+    "figure_5_13",
+    "figure_5_14",
+    "figure_5_15",
+    "figure_5_16",
+    "figure_5_17",
+]
 
 SINGLE = 4.0  # inches
 

@@ -1,8 +1,9 @@
 """Figures of chapter 6: the modified procedures."""
+
 import numpy as np
 
 from ... import plotting
-from ..experiments import run
+from ..studies.experiments import run
 from .adapted import DOUBLE, HEAVY, refined, swapped
 
 __all__ = ["figure_6_1", "figure_6_2", "figure_6_3"]

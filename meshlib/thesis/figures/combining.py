@@ -1,8 +1,9 @@
 """Figures of section 7.5: the mesh on which Algorithm 7.5.1 cycles, and what it makes of the 33 nodes."""
+
 import numpy as np
 
 from ... import Interpolant, combined, delaunay, plotting, problems
-from .. import combining
+from ..studies import section_7_5_combining as combining
 
 __all__ = ["combining_compared", "combining_cycle"]
 
@@ -14,15 +15,16 @@ KINK = (0, 3)  # both coordinates, from one side of the rectangle to the other
 def combining_cycle():
     """The meshes of the cycle: shaded the patch that acts next, in colour the edge that the last one made."""
     meshes, found = _meshes()
-    costs, acting = [found.indicator, *found.steps["indicator"]], found.steps["node"]
+    costs, acting = [found.indicator, *found.history["indicator"]], found.history["node"]
     with plotting.style():
-        figure, axes = plotting.look.pyplot().subplots(1, 3, figsize=(plotting.WIDTH, HEIGHT),
-                                                       layout="constrained")
+        figure, axes = plotting.look.pyplot().subplots(
+            1, 3, figsize=(plotting.WIDTH, HEIGHT), layout="constrained"
+        )
         for k, (ax, mesh) in enumerate(zip(axes, meshes, strict=True)):
             plotting.plot_mesh(ax, mesh, numbers=True)
             ax.plot(KINK, KINK, color=plotting.SECOND, linestyle=DASHES, zorder=2.5)
             plotting.highlight_edges(ax, mesh, plotting.edges_not_in(mesh, meshes[max(k - 1, 0)]))
-            plotting.shade_elements(ax, mesh, np.isin(mesh.elements, acting[k:k + 1]).any(axis=1))
+            plotting.shade_elements(ax, mesh, np.isin(mesh.elements, acting[k : k + 1]).any(axis=1))
             ax.set_title(f"({'abc'[k]})  $J = {costs[k]:.2f}$")
     return figure
 
@@ -30,16 +32,19 @@ def combining_cycle():
 def _meshes():
     """The meshes along the cycle, and the run."""
     found, start = combining.cycle(), delaunay(combining.CYCLE_NODES)
-    share = found.steps["gain"].mean() / found.indicator  # which the first step gains and the second does not
-    first = combined(start, combining.ridge, "jnd", rim=False, sweeps=1, least_gain=share)
+    share = (
+        found.history["gain"].mean() / found.indicator
+    )  # which the first step gains and the second does not
+    first = combined(start, combining.ridge, "jnd", rim=False, max_sweeps=1, min_relative_gain=share)
     return [start, first.mesh, found.mesh], found
 
 
 def combining_compared(function="DD1"):
     """Two rows of mesh, surface and lines of constant value: the start, and combined with the limit."""
     u = problems.functions[function]
-    before, after = (Interpolant(mesh, u) for mesh in (problems.mesh(combining.START),
-                                                       combining.adapted(function).mesh))
+    before, after = (
+        Interpolant(mesh, u) for mesh in (problems.mesh(combining.START), combining.adapted(function).mesh)
+    )
     figure = plotting.representation(after, before, ("start", "combined"))
     moved = np.flatnonzero((before.mesh.nodes != after.mesh.nodes).any(axis=1))
     plotting.mark_nodes(figure.axes[-3], after.mesh, moved, plotting.ACCENT, DOT)

@@ -1,13 +1,16 @@
 """Figures of section 7.7: how near the limit, what the meshes look like, and what they cost a solver."""
+
 import numpy as np
 
 from ... import Interpolant, plotting
-from .. import conditioning, limit
+from ..studies import section_7_7a_limit as limit
+from ..studies import section_7_7b_conditioning as conditioning
 
 __all__ = ["conditioned", "directed", "efficient", "gallery", "terrain_and_hole"]
 
-COLOURS = dict(zip(limit.FUNCTIONS, (plotting.PALETTE[c] for c in ("blue", "green", "vermillion", "black")),
-                   strict=True))
+COLOURS = dict(
+    zip(limit.FUNCTIONS, (plotting.PALETTE[c] for c in ("blue", "green", "vermillion", "black")), strict=True)
+)
 MARKERS = "osv^D*X"
 GALLERY = "ring", "DD1", "Franke"
 FEW = limit.DIRECTED_NODES[0]  # nodes at which single elements can be seen
@@ -24,12 +27,21 @@ def efficient():
     figure.set_size_inches(plotting.WIDTH, TALL)
     for (name, colour), marker in zip(COLOURS.items(), MARKERS, strict=False):
         found, lattice = limit.efficiencies(name)
-        ax.loglog(limit.NODES, lattice, linestyle=(0, (2, 2)), color=colour, linewidth=1, marker=marker,
-                  markersize=4, markerfacecolor="white")
+        ax.loglog(
+            limit.NODES,
+            lattice,
+            linestyle=(0, (2, 2)),
+            color=colour,
+            linewidth=1,
+            marker=marker,
+            markersize=4,
+            markerfacecolor="white",
+        )
         ax.loglog(limit.NODES, found, color=colour, marker=marker, markersize=5, label=name)
     ax.axhline(1, color=plotting.INK, linewidth=1, zorder=0)
-    ax.annotate("limit", (1, 1), (4, 0), xycoords=("axes fraction", "data"), textcoords="offset points",
-                va="center")
+    ax.annotate(
+        "limit", (1, 1), (4, 0), xycoords=("axes fraction", "data"), textcoords="offset points", va="center"
+    )
     _ticks(ax, limit.NODES, (0.8, 1, 1.5, 2, 3, 5, 10, 20, 50, 100))
     ax.set(xlabel="nodes", ylabel="error · elements / B")
     figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=len(COLOURS))
@@ -72,8 +84,15 @@ def terrain_and_hole():
 
 
 def _contours(ax, u_h):
-    ax.tricontour(*u_h.mesh.nodes.T, u_h.mesh.elements, u_h.values, levels=CONTOURS,
-                  colors=plotting.ACCENT, linewidths=1, linestyles="-")
+    ax.tricontour(
+        *u_h.mesh.nodes.T,
+        u_h.mesh.elements,
+        u_h.values,
+        levels=CONTOURS,
+        colors=plotting.ACCENT,
+        linewidths=1,
+        linestyles="-",
+    )
 
 
 def _lit(heights):
@@ -87,14 +106,22 @@ def directed():
     """Error over that of parallel strips, and two meshes of few nodes."""
     figure, (ax, *flat) = plotting.panels(3)
     for (name, u), colour, size in zip(limit.DIRECTED.items(), COLOURS.values(), DOTS, strict=False):
-        ratios = [limit.error(limit.made(name, n).mesh, u) / limit.strip_error(u, n)
-                  for n in limit.DIRECTED_NODES]
-        ax.semilogx(limit.DIRECTED_NODES, ratios, marker="o", markersize=size, color=colour,
-                    label=name)
+        ratios = [
+            limit.error(limit.made(name, n).mesh, u) / limit.strip_error(u, n) for n in limit.DIRECTED_NODES
+        ]
+        ax.semilogx(limit.DIRECTED_NODES, ratios, marker="o", markersize=size, color=colour, label=name)
     for height, text in ((1, "strips"), (limit.ZIGZAG, "zigzag")):
         ax.axhline(height, color=plotting.INK, linewidth=1, zorder=0)
-        ax.annotate(text, (1, height), (-2, -2), xycoords=("axes fraction", "data"), ha="right", va="top",
-                    textcoords="offset points", fontsize="small")
+        ax.annotate(
+            text,
+            (1, height),
+            (-2, -2),
+            xycoords=("axes fraction", "data"),
+            ha="right",
+            va="top",
+            textcoords="offset points",
+            fontsize="small",
+        )
     ax.minorticks_off()
     ax.set_xticks(limit.DIRECTED_NODES, limit.DIRECTED_NODES)
     ax.set(xlabel="nodes", ylabel="error / error of strips", ylim=(0, None), box_aspect=1)
@@ -114,8 +141,17 @@ def conditioned():
     for family, marker, colour in zip(conditioning.families(), MARKERS, colours, strict=False):
         rows = np.array([row for (where, _), row in found.items() if where == family])
         for ax, column in zip(axes, (1, 2), strict=True):
-            ax.loglog(rows[:, 0], rows[:, column], marker, color=colour, label=family, linestyle="none",
-                      markeredgecolor=plotting.INK, markeredgewidth=HAIR, markersize=7)
+            ax.loglog(
+                rows[:, 0],
+                rows[:, column],
+                marker,
+                color=colour,
+                label=family,
+                linestyle="none",
+                markeredgecolor=plotting.INK,
+                markeredgewidth=HAIR,
+                markersize=7,
+            )
     for ax, title in zip(axes, ("stiffness matrix", "scaled by its diagonal"), strict=True):
         ax.set(title=title, xlabel="smallest angle, degrees")
         ax.spines[["top", "right"]].set_visible(False)

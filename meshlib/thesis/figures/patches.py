@@ -1,8 +1,9 @@
 """Small meshes for the drawings of chapters 2 and 3, and what can be done to them."""
+
 import numpy as np
 
 import meshlib as ml
-from meshlib.draws import Draws
+from meshlib.support.random_numbers import Draws
 
 ROW = 0.866  # height of a row of almost equilateral elements
 SEED = 3
@@ -14,7 +15,7 @@ SQUARE = [[0, 0], [0.45, 0], [1, 0], [1, 0.55], [1, 1], [0.55, 1], [0, 1], [0, 0
 
 def hexagon(rings, jitter=0.0):
     """Rings of elements around a node, the inner nodes moved a little at random."""
-    i, j = np.mgrid[-rings:rings + 1, -rings:rings + 1].reshape(2, -1)
+    i, j = np.mgrid[-rings : rings + 1, -rings : rings + 1].reshape(2, -1)
     nodes = np.column_stack([i + j / 2, ROW * j])[abs(i + j) <= rings]
     mesh = ml.delaunay(nodes)
     moves = jitter * (2 * Draws(SEED).uniform(nodes.shape) - 1)
@@ -53,11 +54,13 @@ def flipped(mesh, edge):
 
 def split(mesh, chosen, how="red-green"):
     """Refinement of chosen elements, by a criterion that likes all others."""
+
     def cost(*_):
         return np.isin(np.arange(mesh.n_elements), chosen).astype(float)
+
     criterion = ml.criteria.Criterion("chosen", "element", cost)
     share = len(chosen) / mesh.n_elements
-    return ml.refined(mesh, np.zeros(mesh.n_nodes), criterion, share, split=how)
+    return ml.refined(mesh, np.zeros(mesh.n_nodes), criterion, fraction=share, split=how)
 
 
 def unclosed(mesh, refinement):

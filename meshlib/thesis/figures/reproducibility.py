@@ -1,11 +1,13 @@
 """Figures of the appendix on reproducibility."""
+
 import numpy as np
 
 from ... import plotting
-from .. import printed, studies
-from ..experiments import EXPERIMENTS
-from ..measures import L2
-from ..study_tables import title
+from ..record import printed
+from ..studies import appendix_b as studies
+from ..studies.experiments import EXPERIMENTS
+from ..studies.measures import L2
+from ..tables.appendix_b import title
 
 __all__ = ["study_angle_limits", "study_every_mesh", "study_maxima", "study_means", "study_noise"]
 
@@ -15,9 +17,15 @@ ROW, TALL, LEGEND = 1.25, 4.2, 0.9  # inches
 COLOURS = [plotting.PALETTE[c] for c in ("black", "orange", "sky", "green", "purple", "blue", "vermillion")]
 RULES = "tolerance of the library", "its relative part alone"
 MARKERS = "osv^D*X"
-HEADS = {L2: "$L_2$ error", ("maximum_angle", "mean"): "maximum angle", ("skewness", "mean"): "skewness",
-         ("aspect_ratio", "mean"): "aspect ratio", ("maximum_angle", "max"): "maximum angle",
-         ("skewness", "max"): "skewness", ("aspect_ratio", "max"): "aspect ratio"}
+HEADS = {
+    L2: "$L_2$ error",
+    ("maximum_angle", "mean"): "maximum angle",
+    ("skewness", "mean"): "skewness",
+    ("aspect_ratio", "mean"): "aspect ratio",
+    ("maximum_angle", "max"): "maximum angle",
+    ("skewness", "max"): "skewness",
+    ("aspect_ratio", "max"): "aspect ratio",
+}
 BAND = (0.1, 0.5, 0.9)  # quantiles
 PRINTED_AT = {"jnd": (0, "SR3-81-JND-L2"), "abn": (8, "SR3-81-8-degrees")}
 
@@ -35,8 +43,13 @@ def study_maxima():
 def _distributions(measures):
     keys, pyplot = studies.SWAPS, plotting.look.pyplot()
     with plotting.style():
-        figure, rows = pyplot.subplots(len(keys), len(measures), layout="constrained", squeeze=False,
-                                       figsize=(plotting.WIDTH, ROW * len(keys)))
+        figure, rows = pyplot.subplots(
+            len(keys),
+            len(measures),
+            layout="constrained",
+            squeeze=False,
+            figsize=(plotting.WIDTH, ROW * len(keys)),
+        )
         for key, row in zip(keys, rows, strict=True):
             for which, ax in zip(measures, row, strict=True):
                 _distribution(ax, studies.orders(key).values(which), float(printed.texts(key)[which]))
@@ -50,8 +63,13 @@ def _distribution(ax, values, text):
     """Shares of the orders by value, and the printed value as a line."""
     low, high = min(values.min(), text), max(values.max(), text)
     room = max(0.06 * (high - low), LEAST_ROOM * abs(high))
-    ax.hist(values, BINS, (low - room, high + room), weights=np.full(len(values), 100 / len(values)),
-            color=plotting.SECOND)
+    ax.hist(
+        values,
+        BINS,
+        (low - room, high + room),
+        weights=np.full(len(values), 100 / len(values)),
+        color=plotting.SECOND,
+    )
     ax.axvline(text, color=plotting.ACCENT, linewidth=plotting.look.THICK / 2)
     ax.set(yticks=[], xlim=(low - room, high + room))
     ax.xaxis.set_major_locator(plotting.look.pyplot().MaxNLocator(2))
@@ -66,8 +84,14 @@ def study_noise():
         keys = [key for key in studies.SWAPS if not EXPERIMENTS[key].shuffled]
         for key, colour, marker in zip(keys, COLOURS, MARKERS, strict=True):
             shares = [max(studies.noise(key, m, tolerance).values()) for m in studies.MAGNITUDES]
-            ax.plot(studies.MAGNITUDES, np.multiply(100, shares), color=colour, marker=marker, markersize=4,
-                    label=title(key))
+            ax.plot(
+                studies.MAGNITUDES,
+                np.multiply(100, shares),
+                color=colour,
+                marker=marker,
+                markersize=4,
+                label=title(key),
+            )
         ax.set(xscale="log", xlabel="size of the noise", ylim=(-4, 104))
     axes[0].set_ylabel("trials with a changed digit, per cent")
     for ax, text in zip(axes, RULES, strict=True):
@@ -85,8 +109,14 @@ def study_angle_limits():
         ax.fill_between(studies.ANGLES, low, high, color=colour, alpha=0.2, linewidth=0, step="pre")
         ax.step(studies.ANGLES, middle, color=colour, label=f"{criterion.upper()}-L2, median")
         limit, key = PRINTED_AT[criterion]
-        ax.plot(limit, float(printed.texts(key)[L2]), "s", color=plotting.PALETTE["black"], zorder=3,
-                label="printed" if criterion == "jnd" else None)
+        ax.plot(
+            limit,
+            float(printed.texts(key)[L2]),
+            "s",
+            color=plotting.PALETTE["black"],
+            zorder=3,
+            label="printed" if criterion == "jnd" else None,
+        )
     ax.set(xlabel="no new angle below, degrees", ylabel="$L_2$ error")
     ax.legend()
     return figure
@@ -100,12 +130,31 @@ def study_every_mesh():
     ax.plot(costs, errors, ".", color=plotting.FAINT, markersize=3, label=f"all {len(costs)} meshes")
     ends = np.flatnonzero(reached)
     sizes = LARGEST_DOT * reached[ends] / reached.sum()
-    ax.scatter(costs[ends], errors[ends], sizes, color=plotting.SECOND, zorder=3,
-               label="local optima, by share of orders")
-    ax.plot(costs.min(), errors[costs.argmin()], "*", color=plotting.ACCENT, markersize=14, zorder=4,
-            label="least cost of all")
-    ax.plot(costs[errors.argmin()], errors.min(), "D", color=plotting.PALETTE["black"], zorder=4,
-            label="least error of all")
+    ax.scatter(
+        costs[ends],
+        errors[ends],
+        sizes,
+        color=plotting.SECOND,
+        zorder=3,
+        label="local optima, by share of orders",
+    )
+    ax.plot(
+        costs.min(),
+        errors[costs.argmin()],
+        "*",
+        color=plotting.ACCENT,
+        markersize=14,
+        zorder=4,
+        label="least cost of all",
+    )
+    ax.plot(
+        costs[errors.argmin()],
+        errors.min(),
+        "D",
+        color=plotting.PALETTE["black"],
+        zorder=4,
+        label="least error of all",
+    )
     ax.set(xlabel="cost, ABN-L1", ylabel="$L_2$ error")
     ax.legend()
     return figure

@@ -1,10 +1,11 @@
 """Figures of section 7.1: the three splittings side by side."""
+
 import numpy as np
 
 from ... import plotting
-from ...marking import MARKS
-from ...splitting import SPLITS
-from .. import splittings
+from ...refinement.marking import MARKS
+from ...refinement.splitting import SPLITS
+from ..studies import section_7_1_splittings as splittings
 
 __all__ = ["splittings_compared", "splittings_meshes"]
 
@@ -19,8 +20,15 @@ def splittings_compared():
     """L2 error and smallest angle against the number of nodes, a column for each function."""
     pyplot = plotting.look.pyplot()
     with plotting.style():
-        figure, rows = pyplot.subplots(2, len(splittings.FUNCTIONS), sharex=True, sharey="row", squeeze=False,
-                                       layout="constrained", figsize=(plotting.WIDTH, HEIGHT + LEGEND))
+        figure, rows = pyplot.subplots(
+            2,
+            len(splittings.FUNCTIONS),
+            sharex=True,
+            sharey="row",
+            squeeze=False,
+            layout="constrained",
+            figsize=(plotting.WIDTH, HEIGHT + LEGEND),
+        )
         for (above, below), function in zip(rows.T, splittings.FUNCTIONS, strict=True):
             _draw(above, below, function)
             above.set_title(function)
@@ -45,12 +53,21 @@ def _draw(above, below, function):
 
 
 def _legend(figure, line):
-    handles = [line([], [], color=colour, linewidth=2 * LINE, label=split)
-               for split, colour in COLOURS.items()]
-    handles += [line([], [], color=plotting.INK, linestyle=dashes, label=f"by {mark}")
-                for mark, dashes in DASHES.items()]
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), columnspacing=1.0,
-                  handlelength=1.9, fontsize="small")
+    handles = [
+        line([], [], color=colour, linewidth=2 * LINE, label=split) for split, colour in COLOURS.items()
+    ]
+    handles += [
+        line([], [], color=plotting.INK, linestyle=dashes, label=f"by {mark}")
+        for mark, dashes in DASHES.items()
+    ]
+    figure.legend(
+        handles=handles,
+        loc="outside lower center",
+        ncols=len(handles),
+        columnspacing=1.0,
+        handlelength=1.9,
+        fontsize="small",
+    )
 
 
 def splittings_meshes(function="SR3"):

@@ -1,0 +1,1 @@
+"""The combined strategy: on each patch the better of swapping and moving."""

@@ -1,0 +1,1 @@
+"""The piecewise linear interpolant on a mesh, and the search for the element of a point."""

@@ -1,0 +1,1 @@
+"""The mesh, its derived arrays and invariants, Delaunay meshes and measures of quality."""

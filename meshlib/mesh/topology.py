@@ -1,0 +1,177 @@
+"""Edges and neighbours, derived from the element array alone.
+
+Half-edge 3 t + k is the side of element t opposite its node k; it runs from
+node k + 1 to node k + 2 (counted modulo 3), so the element lies to its left::
+
+            k
+           / \\
+          / t \\
+       k+1 --> k+2
+"""
+
+import numpy as np
+
+from ..errors import InvalidMeshError
+
+TAILS, HEADS = [1, 2, 0], [2, 0, 1]
+MANY = 10_000  # elements from which on faster ways pay, which give the same
+
+
+def edge_table(elements, n_nodes):
+    """Edges in lexicographic order, and the edge opposite each node of each element."""
+    if len(elements) >= MANY and _kernels_are_compiled():
+        return _edge_table_by_counting(elements, n_nodes)
+    ends = np.stack([elements[:, TAILS], elements[:, HEADS]]).astype(np.int64)
+    keys = ends.min(axis=0) * n_nodes + ends.max(axis=0)
+    unique, numbers = np.unique(keys, return_inverse=True)
+    edges = np.stack(np.divmod(unique, n_nodes), axis=1).astype(np.int32)
+    return edges, numbers.reshape(elements.shape).astype(np.int32)
+
+
+def _kernels_are_compiled():
+    from ..kernels import backend
+
+    return backend.NAME == "numba"
+
+
+def _edge_table_by_counting(elements, n_nodes):
+    """The same by a kernel, which is faster where there is much to do."""
+    from ..kernels import half_edges
+    from ..kernels.backend import readable, writable
+
+    size, number = elements.size, np.int32
+    slot, edges = writable(np.empty(size, dtype=number)), writable(np.empty(2 * size, dtype=number))
+    rooms = (writable(np.zeros(n, dtype=number)) for n in (n_nodes + 1, size, size))
+    count = half_edges.edge_table(readable(elements), *rooms, slot, edges)
+    return (
+        np.asarray(edges[: 2 * count], dtype=number).reshape(-1, 2),
+        np.asarray(slot, dtype=number).reshape(-1, 3),
+    )
+
+
+def sides(elements, element_edges, n_edges):
+    """The two elements of each edge, left of (smaller -> larger node) first.
+
+    A boundary edge has its only element first and -1 second.
+    """
+    rightward = (elements[:, TAILS] > elements[:, HEADS]).astype(np.int64)
+    place = 2 * element_edges.astype(np.int64) + rightward
+    table = np.full(2 * n_edges, -1, dtype=np.int32)
+    table[place] = np.arange(len(elements), dtype=np.int32)[:, None]
+    if np.count_nonzero(table >= 0) < place.size:
+        _refuse_shared_half_edges(elements, place)
+    table = table.reshape(-1, 2)
+    lonely = table[:, 0] < 0
+    table[lonely] = table[lonely, ::-1]
+    return table
+
+
+def neighbours(element_edges, edge_elements):
+    """The element across the edge opposite node k of element t, or -1."""
+    pairs = edge_elements[element_edges]
+    own = np.arange(len(element_edges), dtype=np.int32)[:, None]
+    return np.where(pairs[..., 0] == own, pairs[..., 1], pairs[..., 0])
+
+
+def half_edges(element_edges, n_edges, kernels):
+    """Twin and edge of each half-edge, and one half-edge of each edge.
+
+    Half-edge 3 t + k is the side of element t opposite its node k; its twin is the same
+    side seen from the neighbour, or -1.  Flat, as kernels want them, and theirs to change.
+    """
+    slot, nowhere = kernels.backend.flat(element_edges), kernels.half_edges.NOWHERE
+    twin, half = (
+        kernels.backend.writable(np.full(n, nowhere, dtype=np.int32)) for n in (element_edges.size, n_edges)
+    )
+    kernels.half_edges.twins(slot, twin, half)
+    return twin, slot, half
+
+
+def from_smallest(elements):
+    """Elements turned so that the smallest node number comes first."""
+    first = elements.argmin(axis=1)[:, None]
+    return np.take_along_axis(elements, (first + np.arange(3)) % 3, axis=1)
+
+
+def grouped(numbers, n):
+    """Rows of the numbers 0 to n - 1, one number after the other, and where the rows of each start."""
+    if len(numbers) < MANY:
+        starts = np.concatenate([[0], np.cumsum(np.bincount(numbers, minlength=n))])
+        return np.argsort(numbers, kind="stable").astype(np.int32), starts.astype(np.int32)
+    from scipy.sparse import csr_array  # transposes by counting
+
+    row = np.arange(len(numbers), dtype=np.int32), numbers, [0, len(numbers)]
+    column = csr_array(row, shape=(1, n)).tocsc()
+    return column.data, column.indptr
+
+
+def around_nodes(edges, n_nodes):
+    """Nodes joined to each node, node after node, rows of their edges, and where those of each start.
+
+    Edge e seen from its second node is row E + e.
+    """
+    rows, starts = grouped(edges.T.ravel(), n_nodes)
+    return edges.T[::-1].ravel().take(rows), rows, starts
+
+
+def unique(numbers):
+    """The different numbers in ascending order; NumPy's own way is through a slower hash table."""
+    ascending = np.sort(numbers, axis=None)
+    new = np.ones(len(ascending), dtype=bool)
+    np.not_equal(ascending[1:], ascending[:-1], out=new[1:])
+    return ascending[new]
+
+
+def edge_numbers(edges, n_nodes, pairs):
+    """Row in ``edges`` of each pair of nodes (smaller first), or a MeshError."""
+    own, keys = (rows.astype(np.int64) @ [n_nodes, 1] for rows in (edges, pairs))
+    place = np.searchsorted(own, keys).clip(max=len(own) - 1)
+    missing = np.flatnonzero((edges[place] != pairs).any(axis=1))
+    if missing.size:
+        i, j = pairs[missing[0]]
+        raise InvalidMeshError(
+            "edge", f"nodes {i} and {j} are not joined by an edge", pairs[missing].ravel(), missing.size
+        )
+    return place
+
+
+def canonical(elements):
+    """Elements with their smallest node first, in lexicographic order."""
+    turned = from_smallest(elements)
+    return turned[_lexicographic(turned)]
+
+
+def _lexicographic(elements):
+    """The order of elements by their nodes."""
+    if len(elements) >= MANY:  # where one sort of the first two nodes is faster than three
+        keys = (elements[:, 0].astype(np.int64) << 32) + elements[:, 1]
+        order = np.argsort(keys)
+        if np.diff(keys[order]).all():  # as in every valid mesh
+            return order
+    return np.lexsort(elements.T[::-1])
+
+
+def quadrilaterals(mesh, edges):
+    """Nodes (a, b, c, d) around each interior edge b-c, and its elements (a, b, c), (d, c, b)."""
+    pairs = mesh.edge_elements[edges]
+    t, s = pairs.T
+    k = (mesh.element_edges[t] == edges[:, None]).argmax(axis=1)
+    m = (mesh.element_edges[s] == edges[:, None]).argmax(axis=1)
+    a, d = mesh.elements[t, k], mesh.elements[s, m]
+    b, c = mesh.elements[t, np.take(TAILS, k)], mesh.elements[t, np.take(HEADS, k)]
+    return np.column_stack([a, b, c, d]), pairs
+
+
+def _refuse_shared_half_edges(elements, place):
+    order = np.argsort(place, axis=None, kind="stable")
+    again = np.flatnonzero(np.diff(place.ravel()[order]) == 0)
+    if again.size:
+        first, second = order[again[0]] // 3, order[again[0] + 1] // 3
+        k = order[again[0]] % 3
+        a, b = sorted(int(n) for n in (elements[first, TAILS[k]], elements[first, HEADS[k]]))
+        raise InvalidMeshError(
+            "overlap",
+            f"elements {first} and {second} lie on the same side of edge "
+            f"({a}, {b}); remove one or reverse its nodes",
+            (first, second),
+        )

@@ -1,0 +1,1 @@
+"""Node movement: the spring analogy and springs made from data."""

@@ -1,0 +1,1 @@
+"""The best of many meshes: local optima of many edge orders, the proved optimum, all meshes."""

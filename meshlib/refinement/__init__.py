@@ -1,0 +1,1 @@
+"""Refinement: which elements are marked, and how they are split."""

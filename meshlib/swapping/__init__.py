@@ -1,0 +1,1 @@
+"""Edge swapping: the local optimisation procedure, its schedules and simulated annealing."""

@@ -1,0 +1,1 @@
+"""What is on record: the printed numbers, the certificates, and the verdicts."""

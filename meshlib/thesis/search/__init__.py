@@ -1,0 +1,1 @@
+"""The search for certificates: an edge order and a perturbation that give printed numbers."""
