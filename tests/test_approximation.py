@@ -1,9 +1,13 @@
 """Meshes made for a known function: what must hold after every step, and how near the limit they come."""
 
+import inspect
 import os
+import re
 import signal
 import subprocess
 import sys
+from dataclasses import FrozenInstanceError, fields, replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,12 +17,14 @@ from hypothesis import strategies as st
 from support import lattice
 
 from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems, refined
-from meshlib.approximation import node_count, samples, strategy
+from meshlib.approximation import node_count, samples, settings, strategy
+from meshlib.approximation.approximate import UNIT_SQUARE, Task
 from meshlib.approximation.division import bisect, divide
 from meshlib.approximation.error_integrals import Misfit, half_slopes, powers, rule
 from meshlib.approximation.moves import _Sweep, move
 from meshlib.approximation.one_direction import in_turn
 from meshlib.approximation.patches import _curvature
+from meshlib.approximation.settings import NodeCount, OneDirection, Rounds, Settings
 from meshlib.approximation.start_mesh import regular
 from meshlib.approximation.swaps import swap
 from meshlib.approximation.working_mesh import Draft
@@ -159,7 +165,7 @@ def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
 
 
 def test_bisections_leave_angles_as_they_were():
-    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they are made."""
+    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they lie."""
     draft = Draft(Misfit(front, 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
     while draft.n_nodes < 200:
         before = draft.n_nodes
@@ -213,15 +219,15 @@ def test_a_function_of_one_direction_gets_three_quarters_of_the_error_of_strips(
 
 
 def test_nodes_in_turn_in_figures():
-    """Of u = x^2, elements over two spacings h have d = 2 (h^2, h^2, 4 h^2), those of strips d = 2 (0, 4h^2, 4h^2).
+    """Errors of u = x^2 are as the roots of 54 and 96, of sum d^2 + (sum d)^2.
 
-    The errors are as the roots of sum d^2 + (sum d)^2: of 54 and 96.
+    Elements over two spacings h have d = 2 (h^2, h^2, 4 h^2), those of strips d = 2 (0, 4h^2, 4h^2).
     """
 
     def u(x, y):
         return x**2
 
-    mesh = in_turn(u, np.zeros(2), np.ones(2), 402)
+    mesh = in_turn(u, np.zeros(2), np.ones(2), 402, 2, OneDirection())
     error = Interpolant(mesh, u).l2_error(u, "exact")
     assert error / (2 * np.sqrt(6 / 720) / 200**2) == pytest.approx(0.75, rel=0.02)
 
@@ -231,14 +237,16 @@ def test_nodes_in_turn_in_figures():
 @pytest.mark.parametrize("nodes", [12, 13, 60])
 def test_nodes_in_turn_in_any_direction_and_rectangle(direction, low, high, nodes):
     low, high = np.array(low, float), np.array(high, float)
-    mesh = in_turn(lambda x, y: np.cos(direction[0] * x + direction[1] * y), low, high, nodes)
+    mesh = in_turn(
+        lambda x, y: np.cos(direction[0] * x + direction[1] * y), low, high, nodes, 2, OneDirection()
+    )
     assert mesh.validate().counts == (nodes, 2 * nodes - 3, nodes - 2)
     assert mesh.domain_area == pytest.approx(np.prod(high - low))
 
 
 @pytest.mark.parametrize("function", [front, lambda x, y: x + 2 * y, lambda x, y: 0 * x, lambda x, y: x * y])
 def test_other_functions_and_planes_get_no_such_mesh(function):
-    assert in_turn(function, np.zeros(2), np.ones(2), 50) is None
+    assert in_turn(function, np.zeros(2), np.ones(2), 50, 2, OneDirection()) is None
 
 
 @pytest.mark.parametrize("nodes", [155, 160, 165])
@@ -281,7 +289,7 @@ def test_the_largest_error_of_large_and_small_functions(factor):
 
 @pytest.mark.parametrize("norm, error", [("L2", 0.21082 / 162), ("max", 1 / 324)])
 def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
-    """Of x^2 - y^2 with spacings h: an L2 error of h^2 / sqrt(90), the limit itself, and a largest one of h^2 / 4."""
+    """With spacings h, x^2 - y^2 has an L2 error of h^2 / sqrt(90), the limit, and a largest of h^2 / 4."""
     found = approximate(problems.functions["hyperbolic"], 100, norm=norm)
     assert found.mesh.validate().counts == (100, 261, 162)
     assert found.error == pytest.approx(error, rel=1e-4)
@@ -382,6 +390,33 @@ def test_sides_of_a_domain_with_a_hole(ring):
     assert (sides_of(delaunay(lattice(2, 2))).of_node == INTERIOR).sum() == 1
 
 
+# -- settings --------------------------------------------------------------------------------------
+
+
+def test_settings_cannot_be_changed_and_each_has_its_meaning_beside_it():
+    with pytest.raises(FrozenInstanceError):
+        Settings().moves.probe = 1
+    lines = inspect.getsource(settings).splitlines()
+    numbers = [line for line in lines if re.match(r"    \w+: (int|float|tuple)", line)]
+    assert len(numbers) == sum(len(fields(section.default)) for section in fields(Settings))
+    assert all(re.search(r"  # \w+.{10}", line) for line in numbers)
+
+
+def test_every_setting_is_read_somewhere():
+    package = Path(settings.__file__).parent
+    code = "".join(file.read_text() for file in package.glob("*.py") if file.name != "settings.py")
+    names = {number.name for section in fields(Settings) for number in fields(section.default)}
+    assert {name for name in names if not re.search(rf"\.{name}\b", code)} == set()
+
+
+def test_settings_reach_the_mesh():
+    task = Task(front, UNIT_SQUARE, 0.0, "L2", 0, False)
+    assert task.with_nodes(40).mesh.equals(approximate(front, 40).mesh)
+    still = replace(task, settings=Settings(rounds=Rounds(main=0, early=0, last_moves=0)))
+    steps = still.with_nodes(40).history["step"].tolist()
+    assert steps == ["grown", "moved"] * 2 + ["compared", "measured"]
+
+
 # -- bad input, interrupts -------------------------------------------------------------------------
 
 
@@ -447,13 +482,13 @@ def test_the_least_number_is_found_whatever_the_order_of_convergence(order, enou
         tried.append(nodes)
         return SimpleNamespace(nodes=nodes, error=nodes**-order)
 
-    found = node_count.least(trial, enough**-order * (1 + 1e-12), 4, 200_000)
+    found = node_count.least(trial, enough**-order * (1 + 1e-12), 4, NodeCount())
     assert enough <= found.nodes <= max(enough, 1.02 * enough)
     assert len(tried) <= 15
 
 
 def test_a_tolerance_out_of_reach_is_told():
-    assert node_count.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, 1000) is None
+    assert node_count.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, NodeCount(most=1000)) is None
 
 
 def test_samples_on_a_grid_are_bilinear_between():

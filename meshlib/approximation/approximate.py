@@ -15,14 +15,12 @@ from .error_integrals import Misfit
 from .node_count import least
 from .one_direction import in_turn
 from .samples import Samples
+from .settings import Settings
 from .start_mesh import corners, fit, regular, start
-from .strategy import LAST_MOVES, SQUARINGS, polish, steps, strategy
+from .strategy import polish, steps, strategy
 from .working_mesh import Draft
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
-RESOLUTION = 40  # spacings along a square as large as the domain, in which features are looked for
-FINER = 4  # times as many for the error of what was found
-FEWEST, MOST_NODES = 4, 200_000  # nodes between which a tolerance is sought
 LARGEST_MIN_ANGLE = 30.0
 NORMS = "L2", "max"
 STEP = np.dtype(
@@ -162,7 +160,7 @@ def approximate(
     angle = checks.number(min_angle or 0, "min_angle", 0, LARGEST_MIN_ANGLE + 1e-9, "degrees from 0 to 30")
     function = function if callable(function) else Samples(function, *_box(domain))
     norm = checks.choice(norm, NORMS, "norm")
-    task = _Task(function, domain, float(np.radians(angle)), norm, seed, progress)
+    task = Task(function, domain, float(np.radians(angle)), norm, seed, progress)
     if (nodes is None) == (tolerance is None):
         raise MeshError("nodes", f"nodes is {nodes} and tolerance is {tolerance}; give one of them")
     if tolerance is None:
@@ -171,7 +169,7 @@ def approximate(
 
 
 @dataclass(frozen=True)
-class _Task:
+class Task:
     """What is to be approximated, where and how."""
 
     function: object
@@ -180,18 +178,21 @@ class _Task:
     norm: str
     seed: int
     progress: bool
+    settings: Settings = Settings()
 
     def with_nodes(self, nodes):
         """The mesh of so many nodes."""
-        first = start(self.domain, nodes, self.seed)
-        misfit = Misfit(self.function, float(np.sqrt(first.domain_area) / RESOLUTION), self.sharpest)
+        settings = self.settings
+        first = start(self.domain, nodes, self.seed, settings.start)
+        spacing = float(np.sqrt(first.domain_area) / settings.quadrature.resolution)
+        misfit = Misfit(self.function, spacing, self.sharpest, settings.quadrature)
         ridge = self._ridge(misfit, nodes)
         if ridge is not None:
-            draft = Draft(misfit, ridge, self.norm)
+            draft = Draft(misfit, ridge, self.norm, settings)
             if self.norm == "max":
-                draft.measure(SQUARINGS)
-            return self._run(draft, LAST_MOVES + 1, partial(polish, draft))
-        draft = Draft(misfit, first, self.norm)
+                draft.measure(settings.objective.squarings)
+            return self._run(draft, settings.rounds.last_moves + 1, partial(polish, draft))
+        draft = Draft(misfit, first, self.norm, settings)
         fit(draft, nodes)
         lattice = None if isinstance(self.domain, Mesh) else regular(self.domain, nodes)
         return self._run(draft, steps(draft, nodes), partial(strategy, draft, nodes, regular=lattice))
@@ -205,12 +206,13 @@ class _Task:
             spent.append(found.evaluations)
             return found
 
-        smallest = len(sides_of(start(self.domain, FEWEST, self.seed)).corners)
-        found = least(trial, tolerance, smallest, MOST_NODES)
+        settings = self.settings.node_count
+        coarsest = start(self.domain, settings.fewest, self.seed, self.settings.start)
+        found = least(trial, tolerance, len(sides_of(coarsest).corners), settings)
         if found is None:
             raise MeshError(
                 "tolerance",
-                f"the tolerance {tolerance} is not reached with {MOST_NODES} nodes; give a larger one",
+                f"the tolerance {tolerance} is not reached with {settings.most} nodes; give a larger one",
             )
         return replace(found, evaluations=sum(spent))
 
@@ -218,8 +220,8 @@ class _Task:
         """A mesh for a function of one direction, or None."""
         if isinstance(self.domain, Mesh) or self.sharpest:
             return None
-        power = 2 ** (SQUARINGS if self.norm == "max" else 1)
-        return in_turn(misfit.values, *corners(self.domain), nodes, power)
+        power = 2 ** (self.settings.objective.squarings if self.norm == "max" else 1)
+        return in_turn(misfit.values, *corners(self.domain), nodes, power, self.settings.one_direction)
 
     def _run(self, draft, total, adapt):
         history = []
@@ -232,7 +234,7 @@ class _Task:
                     raise Interrupted(self._result(draft, history))
 
             adapt(note)
-            draft.measure_finely(FINER)
+            draft.measure_finely(self.settings.quadrature.final_refinement)
             note("measured")
         return self._result(draft, history)
 

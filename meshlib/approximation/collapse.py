@@ -5,12 +5,6 @@ import numpy as np
 from ..mesh.boundary_sides import CORNER, INTERIOR
 from ..support.independent import coarse, independent
 
-LOOKED_AT = 3  # nodes for each that is to be taken out
-FEWEST = 40  # nodes looked at in any case
-TOWARDS = 3  # neighbours for each of these
-NEAR = 0.1  # of a boundary edge: the height at which a node over it may be put on it
-BETWEEN = 0.05  # of the same: how far from its ends
-
 
 def collapse(draft, share):
     r"""Draw the cheapest nodes, up to a share of all, into a neighbour; returns how many.
@@ -23,8 +17,8 @@ def collapse(draft, share):
          \ / \ /            \ / \ /      (drawn: i goes into j)
           *---*              *---*
     """
-    pairs, number = _Pairs(draft), int(share * draft.n_nodes)
-    pairs.keep_likely(draft, max(LOOKED_AT * number, FEWEST))
+    pairs, number, settings = _Pairs(draft), int(share * draft.n_nodes), draft.settings.removal
+    pairs.keep_likely(draft, max(int(settings.candidates * number), settings.fewest_candidates))
     cost, into = pairs.cheapest(draft)
     nodes = np.argsort(cost, kind="stable")[:number]
     nodes = nodes[np.isfinite(cost[nodes])]
@@ -58,7 +52,7 @@ class _Pairs:
         worth[self.i[first]] = bent[first]
         few = np.zeros(draft.n_nodes, dtype=bool)
         few[np.argsort(worth, kind="stable")[:number]] = True
-        chosen = np.sort(order[(rank < TOWARDS) & few[self.i[order]]])
+        chosen = np.sort(order[(rank < draft.settings.removal.neighbours) & few[self.i[order]]])
         self.i, self.j = self.i[chosen], self.j[chosen]
 
     def cheapest(self, draft):
@@ -137,7 +131,7 @@ def settle_on_boundary(draft):
     node = draft.elements[element].sum(axis=1) - ends.sum(axis=1)
     side = draft.boundary.of_edges(ends, draft.side)
     foot = draft.boundary.snapped(draft.nodes[node], side)
-    over = _is_near(draft.nodes[ends], draft.nodes[node], foot)
+    over = _is_near(draft.nodes[ends], draft.nodes[node], foot, draft.settings.removal)
     near = np.flatnonzero((draft.side[node] == INTERIOR) & over)
     gain, values = _gain(draft, node[near], element[near], ends[near], foot[near])
     better = gain > draft.little
@@ -155,11 +149,12 @@ def settle_on_boundary(draft):
     return len(chosen)
 
 
-def _is_near(ends, point, foot):
+def _is_near(ends, point, foot, settings):
     along = ends[:, 1] - ends[:, 0]
     length = np.hypot(*along.T)
     share = ((foot - ends[:, 0]) * along).sum(axis=1) / length**2
-    return (np.hypot(*(point - foot).T) < NEAR * length) & (np.abs(share - 0.5) < 0.5 - BETWEEN)
+    is_between = np.abs(share - 0.5) < 0.5 - settings.from_ends
+    return (np.hypot(*(point - foot).T) < settings.near * length) & is_between
 
 
 def _gain(draft, node, element, ends, foot):

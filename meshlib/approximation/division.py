@@ -5,13 +5,12 @@ import numpy as np
 from ..mesh.boundary_sides import INTERIOR
 from ..refinement.splitting import SPLITS
 
-WORTH = 0.1  # of the mean error of an element, from which on it is divided
-ALONE = 50  # elements that are tried one by one
-
 
 def divide(draft):
     """Divide the elements that have an error to speak of, red-green; returns whether any was divided."""
-    marked = np.flatnonzero(draft.errors + draft.edge_errors() >= WORTH * draft.errors.mean())
+    marked = np.flatnonzero(
+        draft.errors + draft.edge_errors() >= draft.settings.division.worthwhile * draft.errors.mean()
+    )
     return _split(draft, *SPLITS["red-green"](draft.mesh, marked)[:3]) > 0
 
 
@@ -27,9 +26,9 @@ def bisect(draft, most):
     most : int
         New nodes at most.
     """
-    order = draft.worst(most)
+    order = draft.worst(most, draft.settings.insertion.worst)
     tried = [order[: len(order) >> k] for k in range(len(order).bit_length())]
-    for marked in (*tried, *order[1:ALONE, None]):
+    for marked in (*tried, *order[1 : draft.settings.division.tried_singly, None]):
         elements, parents, ends, _ = SPLITS["longest-edge"](draft.mesh, np.sort(marked))
         if len(ends) <= most and _are_allowed(draft, elements, parents, ends):
             return _split(draft, elements, parents, ends)

@@ -17,21 +17,18 @@ import numpy as np
 from ..mesh.boundary_sides import INTERIOR
 from ..mesh.topology import TAILS
 from ..support.independent import coarse, independent
-from .working_mesh import WORST
-
-LEAST = 1e-9  # of the same, at which nothing is left that could be split
-CANDIDATES = 2  # elements looked at for each node to be inserted
-KINDS = 5  # middles of the three edges, centroid, point of largest error
 
 
-def insert(draft, count, share=WORST):
+def insert(draft, count, share=None):
     """Insert up to so many nodes into elements of nearly the largest error; returns how many.
 
     Where none of these can be split, others are looked at.
     """
-    worst = draft.worst(int(CANDIDATES * count * WORST / share), share)
+    settings = draft.settings.insertion
+    share = settings.worst if share is None else share
+    worst = draft.worst(int(settings.candidates * count * settings.worst / share), share)
     stars = _Stars(draft, worst)
-    gain = coarse(stars.gain(draft)).reshape(KINDS, -1)
+    gain = coarse(stars.gain(draft)).reshape(-1, len(worst))
     kind, column = gain.argmax(axis=0), np.arange(len(worst))
     best, gain = kind * len(worst) + column, gain[kind, column]
     possible = np.flatnonzero(np.isfinite(gain))
@@ -43,13 +40,13 @@ def insert(draft, count, share=WORST):
     ]
     if len(chosen):
         stars.put_into(draft, best[chosen])
-    elif share > LEAST:
-        return insert(draft, count, share / 10)
+    elif share > settings.widest:
+        return insert(draft, count, share / settings.widening)
     return len(chosen)
 
 
 class _Stars:
-    """Places for a new node, KINDS times as many as elements: what each would replace, and by what.
+    """Places for a new node, five for each element: what each would replace, and by what.
 
     Attributes
     ----------

@@ -6,14 +6,6 @@ from ..kernels import for_work
 from ..mesh.boundary_sides import CORNER
 from .patches import Patches
 
-REACH = 0.35  # of the extent of a patch: how far a node may go at once
-SHARES = (1.6, 0.7)  # of the step, tried one after the other: beyond the minimum, as others move as well
-WORTHWHILE = 1e-4  # gain foreseen, relative to the error of the patch, from which on a node is moved
-GAIN = 1e-10  # relative; smaller gains are rounding
-FINEST = 2.0**-12  # of the extent of a patch, of which steps are multiples
-CURVED = 1e-3  # smallest curvature of the model, relative to its largest
-STEPS = 2  # of plain Python, to give a node its colour
-
 
 def move(draft):
     """Move every node once, if that lowers the error; returns how many moved.
@@ -32,14 +24,14 @@ class _Sweep:
     def __init__(self, draft):
         draft.nodes, draft.values, draft.fresh = draft.nodes.copy(), draft.values.copy(), draft.fresh.copy()
         self.draft, self.around, self.patches = draft, draft.neighbours(), draft.patches()
-        self.little = draft.little
+        self.little, self.settings = draft.little, draft.settings.moves
         self.errors, self.moments = draft.misfit.moments(
             draft.nodes[draft.elements], draft.values[draft.elements], is_new=False
         )
 
     def classes(self):
         """The nodes that may move, one colour after the other."""
-        kernels = for_work(STEPS * self.draft.n_nodes)
+        kernels = for_work(self.settings.colouring * self.draft.n_nodes)
         flat = kernels.backend.flat
         colour = flat(np.full(self.draft.n_nodes, -1, dtype=np.int32))
         kernels.colours.first_free(flat(self.around.starts), flat(self.around.numbers), colour)
@@ -52,9 +44,9 @@ class _Sweep:
             return 0
         patches = self._patches(nodes)
         step, gain = self._steps(patches)
-        left = np.flatnonzero(gain > WORTHWHILE * patches.error + self.little)
+        left = np.flatnonzero(gain > self.settings.worthwhile * patches.error + self.little)
         moved = 0
-        for share in SHARES:
+        for share in self.settings.step_shares:
             if len(left):
                 better = self._try(nodes[left], share * step[left])
                 moved, left = moved + int(better.sum()), left[~better]
@@ -68,9 +60,9 @@ class _Sweep:
         away, row = self.around.of(patches.nodes)
         frames = patches.frames(away, row)
         slope, curvature = patches.model(frames)
-        length = _downhill(slope, curvature)
+        length = _downhill(slope, curvature, self.settings)
         gain = -(slope * length).sum(axis=1) / 2
-        return _on_grid(np.einsum("nk,nkc->nc", length, frames), frames), gain
+        return _on_grid(np.einsum("nk,nkc->nc", length, frames), frames, self.settings.grid), gain
 
     def _try(self, nodes, step):
         """Move nodes by a step where the error falls; returns where it did."""
@@ -78,7 +70,7 @@ class _Sweep:
         at = patches.kept_on_sides(draft.nodes[nodes] + step)
         there = draft.misfit.values(*at.T.copy())
         error, of_element, moments = patches.moved(at, there)
-        better = error < patches.error * (1 - GAIN)
+        better = error < patches.error * (1 - self.settings.smallest_gain)
         draft.nodes[nodes[better]], draft.values[nodes[better]] = at[better], there[better]
         changed = better[patches.row]
         element = patches.element[changed]
@@ -87,20 +79,20 @@ class _Sweep:
         return better
 
 
-def _on_grid(steps, frames):
+def _on_grid(steps, frames, grid):
     """Steps rounded to multiples of powers of two, so that rounding leaves no trace in the mesh."""
     extent = np.hypot(frames[..., 0], frames[..., 1]).min(axis=1)
-    grid = FINEST * 2.0 ** np.round(np.log2(np.where(extent > 0, extent, 1)))[:, None]
+    grid = grid * 2.0 ** np.round(np.log2(np.where(extent > 0, extent, 1)))[:, None]
     return np.round(steps / grid) * grid
 
 
-def _downhill(slope, curvature):
-    """Minimum of a quadratic model, with its curvature made positive, within REACH."""
+def _downhill(slope, curvature, settings):
+    """Minimum of a quadratic model, with its curvature made positive, within the longest step."""
     size, axes = np.linalg.eigh(curvature)
     size = np.abs(size)
     largest = size.max(axis=1, keepdims=True)
-    size = np.maximum(size, CURVED * largest)
+    size = np.maximum(size, settings.least_curved * largest)
     along = np.einsum("nji,nj->ni", axes, slope) / np.where(size > 0, size, 1)
     step = -np.einsum("nij,nj->ni", axes, along)
     length = np.hypot(*step.T)[:, None]
-    return step * np.minimum(1, REACH / np.where(length > 0, length, 1))
+    return step * np.minimum(1, settings.longest_step / np.where(length > 0, length, 1))

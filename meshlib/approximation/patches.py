@@ -16,8 +16,6 @@ import numpy as np
 from ..mesh.boundary_sides import INTERIOR
 from .collapse import beside
 
-PROBE = 0.08  # of the extent of a patch, at which differences of the function are taken
-
 
 class Patches:
     """Patches without a common element.
@@ -108,15 +106,16 @@ class Patches:
 
     def _differences(self, frames):
         """First and second differences of the function in the frame, about a point inside the domain."""
-        u, v = PROBE * frames[:, 0], PROBE * frames[:, 1]
+        probe = self.draft.settings.moves.probe
+        u, v = probe * frames[:, 0], probe * frames[:, 1]
         centre = self.draft.nodes[self.nodes].copy()
         centre[self.bound] += v[self.bound]
         places = np.concatenate([centre, centre + u, centre - u, centre + v, centre - v, centre + u + v])
         here, right, left, up, down, both = self.draft.misfit.values(*places.T.copy()).reshape(6, -1)
         mixed = both - right - up + here
-        hessian = np.stack([right + left - 2 * here, mixed, mixed, up + down - 2 * here], axis=1) / PROBE**2
-        slope = np.stack([right - left, up - down], axis=1) / (2 * PROBE)
-        slope[self.bound] -= PROBE * hessian[self.bound][:, [1, 3]]
+        hessian = np.stack([right + left - 2 * here, mixed, mixed, up + down - 2 * here], axis=1) / probe**2
+        slope = np.stack([right - left, up - down], axis=1) / (2 * probe)
+        slope[self.bound] -= probe * hessian[self.bound][:, [1, 3]]
         return slope, hessian.reshape(-1, 2, 2)
 
     def _arms(self, frames):

@@ -9,22 +9,20 @@ from ..mesh.mesh import Mesh
 from ..support.random_numbers import Draws
 from .collapse import collapse
 
-CELLS = 3  # of the first lattice along the shorter side of a rectangle
-JITTER = 0.2  # of a cell, by which its inner nodes are moved at random
 LARGEST_STRETCH = 1e3  # of a rectangle
 
 
-def start(domain, nodes, seed):
+def start(domain, nodes, seed, settings):
     """The first mesh."""
     if isinstance(domain, Mesh):
         return checks.a_mesh(domain)
     low, high = corners(domain)
     size = high - low
     most = max(1, int(np.sqrt(nodes)) - 1)  # cells
-    shape = np.minimum(np.ceil(CELLS * size / size.min()), most).astype(int)
+    shape = np.minimum(np.ceil(settings.cells * size / size.min()), most).astype(int)
     lattice = np.stack(np.meshgrid(*(np.arange(n + 1.0) for n in shape)), axis=-1).reshape(-1, 2)
     inner = ((lattice > 0) & (lattice < shape)).all(axis=1)
-    lattice[inner] += JITTER * (2 * Draws(seed).uniform((inner.sum(), 2)) - 1)
+    lattice[inner] += settings.jitter * (2 * Draws(seed).uniform((inner.sum(), 2)) - 1)
     return delaunay(low + lattice / shape * size)
 
 

@@ -13,25 +13,12 @@ from .moves import move
 from .swaps import swap
 from .working_mesh import Best
 
-GROWTH = 0.25  # of the nodes, inserted at once at most
-FEW_PASSES = 4  # of swaps between two insertions
-SMALLEST = 40  # nodes of a mesh whose elements are divided
-DIVISION, FEW_DIVISION = 4, 2  # times the nodes at which the mesh was improved before; with few nodes
-EARLY_ROUNDS, ROUNDS, LAST_MOVES = 3, 8, 12
-STILL = 1e-3  # of the squared error: less than that is not worth another move of all nodes
-MANY = 1600  # nodes, for which there are so many rounds
-FEWEST_TIMES, MOST_TIMES = 0.6, 3  # as many rounds with more nodes, and with fewer
-TAKEN_OUT = 0.3  # of the nodes in the first round, less in each further one
-SQUARINGS = 4  # of the error, whose integral is lowered where the largest error matters
-LEVELLINGS = 8  # rounds of it
-LIKELY = 1.5  # times the objective, at which a regular mesh is worth to be improved
-CLEARLY = 0.9  # of the squared error: what rounds of renewal would hardly gain as well
-
 
 def steps(draft, n_nodes):
     """At most how many steps there will be."""
-    levellings = (2 * LEVELLINGS + LAST_MOVES + 1) * (draft.norm == "max")
-    return sum(2 * rounds + 2 for _, rounds in _sizes(draft, n_nodes)) + LAST_MOVES + levellings + 2
+    settings = draft.settings.rounds
+    levellings = (2 * settings.levelling + settings.last_moves + 1) * (draft.norm == "max")
+    return sum(2 * rounds + 2 for _, rounds in _sizes(draft, n_nodes)) + settings.last_moves + levellings + 2
 
 
 def strategy(draft, n_nodes, note, regular=None):
@@ -40,18 +27,21 @@ def strategy(draft, n_nodes, note, regular=None):
     A regular mesh of at most so many nodes, if there is one, is tried as well: for
     functions of nearly constant second derivatives none may be better.
     """
+    settings = draft.settings
     for size, rounds in _sizes(draft, n_nodes):
         divided(draft, size)
         grown(draft, size)
         note("grown")
         improved(draft)
         note("moved")
-        if size < n_nodes or not regular_taken(draft, regular, n_nodes, CLEARLY, note):
+        if size < n_nodes or not regular_taken(
+            draft, regular, n_nodes, settings.lattice.clearly_better, note
+        ):
             in_rounds(draft, size, rounds, note)
     polish(draft, note)
     if draft.norm == "max":
-        draft.measure(SQUARINGS)
-        in_rounds(draft, n_nodes, LEVELLINGS, note)
+        draft.measure(settings.objective.squarings)
+        in_rounds(draft, n_nodes, settings.rounds.levelling, note)
         if regular_taken(draft, regular, n_nodes, 1, note):
             polish(draft, note)
 
@@ -64,7 +54,7 @@ def regular_taken(draft, regular, n_nodes, share, note):
     best.offer()
     draft.begin(regular)
     swap(draft)
-    if draft.objective < LIKELY * before:
+    if draft.objective < draft.settings.lattice.promising * before:
         grown(draft, n_nodes)
         improved(draft)
     is_better = draft.n_nodes == n_nodes and draft.objective < share * before
@@ -79,7 +69,7 @@ def in_rounds(draft, n_nodes, rounds, note):
     best = Best(draft)
     best.offer()
     for k in range(rounds):
-        renewed(draft, n_nodes, TAKEN_OUT * (1 - k / rounds))
+        renewed(draft, n_nodes, draft.settings.rounds.renewed * (1 - k / rounds))
         note("renewed")
         improved(draft)
         note("moved")
@@ -89,30 +79,34 @@ def in_rounds(draft, n_nodes, rounds, note):
 
 def polish(draft, note):
     """Move all nodes a few times, as long as it is worth it."""
-    for _ in range(LAST_MOVES):
+    settings = draft.settings.rounds
+    for _ in range(settings.last_moves):
         before = draft.errors.sum()
         improved(draft)
         note("moved")
-        if draft.errors.sum() > (1 - STILL) * before:
+        if draft.errors.sum() > (1 - settings.worthwhile) * before:
             break
 
 
 def _sizes(draft, n_nodes):
     """Numbers of nodes at which the mesh is improved, each a quarter or half of the next, and the rounds."""
-    sizes = [n_nodes]
-    while not draft.misfit.sharpest and (before := _before(sizes[0])) > draft.n_nodes:
+    settings, sizes = draft.settings.rounds, [n_nodes]
+    while not draft.misfit.sharpest and (before := _before(draft, sizes[0])) > draft.n_nodes:
         sizes.insert(0, before)
-    times = np.clip(np.sqrt(MANY / n_nodes), FEWEST_TIMES, MOST_TIMES)
-    return [*((size, EARLY_ROUNDS) for size in sizes[:-1]), (n_nodes, round(times * ROUNDS))]
+    times = np.clip(np.sqrt(settings.typical_nodes / n_nodes), settings.fewest_times, settings.most_times)
+    return [*((size, settings.early) for size in sizes[:-1]), (n_nodes, round(times * settings.main))]
 
 
-def _before(n_nodes):
-    return n_nodes // (DIVISION if n_nodes >= DIVISION * SMALLEST else FEW_DIVISION)
+def _before(draft, n_nodes):
+    settings = draft.settings.division
+    are_many = n_nodes >= settings.ratio * settings.fewest_nodes
+    return n_nodes // (settings.ratio if are_many else settings.ratio_of_few)
 
 
 def divided(draft, n_nodes):
     """Divide the elements as long as there are not so many nodes then."""
-    while draft.n_nodes >= SMALLEST and draft.n_nodes + draft.mesh.n_edges <= n_nodes and divide(draft):
+    fewest = draft.settings.division.fewest_nodes
+    while draft.n_nodes >= fewest and draft.n_nodes + draft.mesh.n_edges <= n_nodes and divide(draft):
         swap(draft)
         improved(draft)
 
@@ -122,14 +116,15 @@ def grown(draft, n_nodes):
     grow = _bisected if draft.misfit.sharpest else _inserted
     inserted = True
     while inserted and draft.n_nodes < n_nodes:
-        inserted = grow(draft, min(n_nodes - draft.n_nodes, max(1, int(GROWTH * draft.n_nodes))))
+        most = max(1, int(draft.settings.insertion.growth * draft.n_nodes))
+        inserted = grow(draft, min(n_nodes - draft.n_nodes, most))
         settle_on_boundary(draft)
     swap(draft)
 
 
 def _inserted(draft, most):
     found = insert(draft, most)
-    swap(draft, FEW_PASSES)
+    swap(draft, draft.settings.swaps.passes_between_insertions)
     return found
 
 

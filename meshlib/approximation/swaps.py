@@ -5,13 +5,11 @@ import numpy as np
 from ..mesh.topology import quadrilaterals
 from ..support.independent import coarse, independent
 
-GAIN = 1e-9  # of the error of two elements, below which they stay
 
-
-def swap(draft, passes=30):
+def swap(draft, passes=None):
     """Swap edges until none lowers the error, or so many passes are over; returns the number of swaps."""
     total = 0
-    for _ in range(passes):
+    for _ in range(passes or draft.settings.swaps.passes):
         swaps = _pass(draft)
         total += swaps
         if not swaps:
@@ -38,7 +36,7 @@ def _pass(draft):
     first, second = np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)
     old, new = draft.errors[pairs].sum(axis=1), np.stack([draft.error_of(first), draft.error_of(second)])
     gain = coarse(old - new.sum(axis=0))
-    good = np.flatnonzero(gain > GAIN * old)
+    good = np.flatnonzero(gain > draft.settings.swaps.smallest_gain * old)
     chosen = good[
         independent(gain[good], np.repeat(np.arange(len(good)), 2), pairs[good].ravel(), len(draft.elements))
     ]

@@ -8,10 +8,7 @@ from ..mesh.boundary_sides import sides_of
 from ..mesh.mesh import Mesh
 from ..mesh.topology import around_nodes, grouped
 from ..support.independent import coarse
-
-LITTLE = 1e-6  # of the mean error of an element, below which there is nothing to gain
-WORST = 0.3  # of the largest error, from which on an element is one of the worst
-BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
+from .settings import Settings
 
 
 class Draft:
@@ -32,10 +29,11 @@ class Draft:
     misfit : Misfit
     norm : {"L2", "max"}
         Of the error.
+    settings : Settings
     """
 
-    def __init__(self, misfit, mesh, norm="L2"):
-        self.norm, self.misfit = norm, misfit
+    def __init__(self, misfit, mesh, norm="L2", settings=None):
+        self.norm, self.misfit, self.settings = norm, misfit, settings or Settings()
         self.begin(mesh)
 
     def begin(self, mesh):
@@ -91,12 +89,12 @@ class Draft:
     @property
     def little(self):
         """An error so small that what is left of it is rounding, or not worth a change."""
-        return LITTLE * self.errors.mean()
+        return self.settings.objective.negligible * self.errors.mean()
 
     @property
     def weight(self):
         """What a unit of the squared error along the boundary counts as."""
-        return BOUNDARY_SHARE * np.sqrt(self.mesh.domain_area / self.n_nodes)
+        return self.settings.objective.boundary_share * np.sqrt(self.mesh.domain_area / self.n_nodes)
 
     def error_of(self, elements, is_new=True):
         """Integral of the squared error over elements given by node numbers, (m, 3)."""
@@ -122,7 +120,7 @@ class Draft:
         np.add.at(found, self.mesh.edge_elements[boundary, 0], self.edge_error_of(self.mesh.edges[boundary]))
         return found
 
-    def worst(self, most, share=WORST):
+    def worst(self, most, share):
         """The elements of largest error, so many at most, down to a share of the largest."""
         error = coarse(self.errors + self.edge_errors())
         order = np.argsort(-error, kind="stable")[:most]
