@@ -20,7 +20,7 @@ from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, dela
 from meshlib.approximation import node_count, samples, settings, strategy
 from meshlib.approximation.approximate import UNIT_SQUARE, Task
 from meshlib.approximation.division import bisect, divide
-from meshlib.approximation.error_integrals import Misfit, half_slopes, powers, rule
+from meshlib.approximation.error_integrals import Counted, Misfit, half_slopes, powers, rule
 from meshlib.approximation.moves import _Sweep, move
 from meshlib.approximation.one_direction import in_turn
 from meshlib.approximation.patches import _curvature
@@ -60,7 +60,7 @@ def finely(u_h):
 
 
 def draft_of(function, mesh):
-    return Draft(Misfit(function, 1 / 40), mesh)
+    return Draft(Misfit(Counted(function), 1 / 40), mesh)
 
 
 def objective(draft):
@@ -166,7 +166,7 @@ def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
 
 def test_bisections_leave_angles_as_they_were():
     """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they lie."""
-    draft = Draft(Misfit(front, 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
+    draft = Draft(Misfit(Counted(front), 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
     while draft.n_nodes < 200:
         before = draft.n_nodes
         assert 0 < bisect(draft, 200 - before) == draft.n_nodes - before
@@ -176,9 +176,20 @@ def test_bisections_leave_angles_as_they_were():
 
 def test_an_element_that_would_be_refused_has_an_error_where_a_mesh_has_it():
     corners, values = np.array([[[0.0, 0], [1, 0], [0.5, 1e-6]]]), np.zeros((1, 3))
-    misfit = Misfit(lambda x, y: 1 + 0 * x, 1 / 40)
+    misfit = Misfit(Counted(lambda x, y: 1 + 0 * x), 1 / 40)
     assert misfit.on_elements(corners, values) == [np.inf]
     assert misfit.on_elements(corners, values, is_new=False) == pytest.approx(5e-7)
+
+
+def test_another_power_or_a_finer_quadrature_leaves_the_misfit_of_others_as_it_is():
+    misfit = Misfit(Counted(lambda x, y: front(x, y) / 8), 1 / 40)
+    one, other = (Draft(misfit, delaunay(lattice(3, 3) / 3)) for _ in range(2))
+    before = other.errors.copy()
+    one.measure(4)
+    one.measure_finely(2)
+    assert (one.misfit.squarings, one.misfit.spacing) == (4, 1 / 80) and one.misfit.unit < 1
+    assert other.misfit is misfit and misfit == Misfit(misfit.function, 1 / 40)
+    assert np.array_equal(other.error_of(other.elements), before)
 
 
 def test_the_history_tells_every_step():
@@ -363,7 +374,9 @@ def test_features_between_the_nodes_are_seen():
     def bump(x, y):
         return np.exp(-((x - 0.61) ** 2 + (y - 0.37) ** 2) / 0.02**2)
 
-    error = Misfit(bump, 1 / 40).on_elements(np.array([[[0.0, 0], [1, 0], [1, 1]]]), np.zeros((1, 3)))
+    error = Misfit(Counted(bump), 1 / 40).on_elements(
+        np.array([[[0.0, 0], [1, 0], [1, 1]]]), np.zeros((1, 3))
+    )
     assert error[0] == pytest.approx(np.pi * 0.02**2 / 2, rel=0.01)
 
 

@@ -11,7 +11,7 @@ from ..interpolation.interpolant import Interpolant
 from ..mesh.boundary_sides import sides_of
 from ..mesh.mesh import Mesh
 from ..support.progress import Watch
-from .error_integrals import Misfit
+from .error_integrals import Counted, Misfit
 from .node_count import least
 from .one_direction import in_turn
 from .samples import Samples
@@ -185,7 +185,7 @@ class Task:
         settings = self.settings
         first = start(self.domain, nodes, self.seed, settings.start)
         spacing = float(np.sqrt(first.domain_area) / settings.quadrature.resolution)
-        misfit = Misfit(self.function, spacing, self.sharpest, settings.quadrature)
+        misfit = Misfit(Counted(self.function), spacing, self.sharpest, settings.quadrature)
         ridge = self._ridge(misfit, nodes)
         if ridge is not None:
             draft = Draft(misfit, ridge, self.norm, settings)
@@ -244,7 +244,7 @@ class Task:
             draft.mesh,
             values,
             draft.error,
-            draft.misfit.evaluations,
+            draft.misfit.function.evaluations,
             np.array(history, dtype=STEP),
             self.seed,
             self.norm,
@@ -252,7 +252,7 @@ class Task:
 
 
 def _state(draft):
-    return draft.n_nodes, len(draft.elements), draft.error, draft.misfit.evaluations
+    return draft.n_nodes, len(draft.elements), draft.error, draft.misfit.function.evaluations
 
 
 def _tolerance(tolerance):

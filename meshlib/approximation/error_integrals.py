@@ -1,5 +1,6 @@
 """How far u_h is from a known u: integrals of a power of the error over elements and along edges."""
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -84,42 +85,66 @@ def _parts(level):
     return np.concatenate([1 - second_third.sum(axis=2, keepdims=True), second_third], axis=2)
 
 
-class Misfit:
-    """The error of linear interpolants of one function, and how often it was asked for a value.
-
-    What is integrated is its square, or a higher power when the largest error matters.
+class Counted:
+    """A function that counts the points at which it is evaluated.
 
     Parameters
     ----------
     function : callable
         Vectorised u(x, y).
+
+    Attributes
+    ----------
+    evaluations : int
+        Points so far.
+
+    Examples
+    --------
+    >>> u = Counted(np.hypot)
+    >>> u(np.array([3.0, 5.0]), np.array([4.0, 12.0])).tolist(), u.evaluations
+    ([5.0, 13.0], 2)
+    """
+
+    def __init__(self, function):
+        self.function, self.evaluations = function, 0
+
+    def __call__(self, x, y):
+        """Values, finite and of the shape of x and y, or a MeshError."""
+        found = checks.function_values(self.function, x, y)
+        self.evaluations += found.size
+        return found
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """The error of linear interpolants of a function, and integrals of its square or of a higher power.
+
+    Parameters
+    ----------
+    function : Counted
     spacing : float
         Elements of twice its square or more are divided for quadrature, so that what
         happens between the nodes of a coarse mesh is seen.
     sharpest : float
         Smallest angle of an element that is allowed, in radians.
     settings : Quadrature
-
-    Attributes
-    ----------
     squarings : int
-        How often the error is squared: once for the L2 norm, four times for its sixteenth power.
+        How often the error is squared: once for the L2 norm, four times for its 16th power.
     unit : float
-        In which values are counted, a power of two near the largest error, so that high
+        Unit of values and errors, a power of two near the largest error, so that high
         powers neither vanish nor overflow.
     """
 
-    squarings, unit = 1, 1.0
-
-    def __init__(self, function, spacing, sharpest=0.0, settings=None):
-        self.function, self.spacing, self.sharpest = function, spacing, sharpest
-        self.settings = settings or Quadrature()
-        self.evaluations = 0
+    function: Counted
+    spacing: float
+    sharpest: float = 0.0
+    settings: Quadrature = Quadrature()
+    squarings: int = 1
+    unit: float = 1.0
 
     def values(self, x, y):
         """Values of the function in units, finite and of the shape of x and y, or a MeshError."""
-        found = checks.function_values(self.function, x, y)
-        self.evaluations += found.size
+        found = self.function(x, y)
         return found if self.unit == 1 else found / self.unit
 
     def on_elements(self, corners, values, is_new=True):

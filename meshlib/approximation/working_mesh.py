@@ -1,6 +1,7 @@
 """A mesh in the making: what operations replace, and the error of each element."""
 
 from copy import copy
+from dataclasses import replace
 
 import numpy as np
 
@@ -74,13 +75,13 @@ class Draft:
     def measure(self, squarings):
         """From now on integrate the power 2 ** squarings of the error, in units of about its largest."""
         unit = 2.0 ** np.round(np.log2(largest)) if (largest := self._largest) > 0 else 1.0
-        self.values, self.misfit.unit = self.values / unit, self.misfit.unit * unit
-        self.misfit.squarings = squarings
+        self.values = self.values / unit
+        self.misfit = replace(self.misfit, squarings=squarings, unit=self.misfit.unit * unit)
         self._settle_anew()
 
     def measure_finely(self, times):
         """From now on integrate by elements that are divided so many times as finely."""
-        self.misfit.spacing /= times
+        self.misfit = replace(self.misfit, spacing=self.misfit.spacing / times)
         self._settle_anew()
 
     def _settle_anew(self):
@@ -142,7 +143,7 @@ class Best:
     What counts is the error that is being lowered, be the norm what it may.
     """
 
-    ARRAYS = "nodes", "values", "elements", "side", "boundary", "errors", "fresh", "mesh"
+    ARRAYS = "misfit", "nodes", "values", "elements", "side", "boundary", "errors", "fresh", "mesh"
 
     def __init__(self, draft):
         self.draft, self.rank, self.kept = draft, (np.inf, np.inf), None
