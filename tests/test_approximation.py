@@ -19,14 +19,16 @@ from support import lattice
 from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems, refined
 from meshlib.approximation import node_count, samples, settings, strategy
 from meshlib.approximation.approximate import UNIT_SQUARE, Task
-from meshlib.approximation.division import bisect, divide
+from meshlib.approximation.collapse import collapsed, settled_on_boundary
+from meshlib.approximation.division import bisected, divided
 from meshlib.approximation.error_integrals import Counted, Misfit, half_slopes, powers, rule
-from meshlib.approximation.moves import _Sweep, move
+from meshlib.approximation.insertion import inserted
+from meshlib.approximation.moves import _Sweep, moved
 from meshlib.approximation.one_direction import in_turn
 from meshlib.approximation.patches import _curvature
 from meshlib.approximation.settings import NodeCount, OneDirection, Rounds, Settings
 from meshlib.approximation.start_mesh import regular
-from meshlib.approximation.swaps import swap
+from meshlib.approximation.swaps import swapped
 from meshlib.approximation.working_mesh import Draft
 from meshlib.mesh.boundary_sides import CORNER, INTERIOR, sides_of
 from meshlib.mesh.quality import angles
@@ -60,7 +62,7 @@ def finely(u_h):
 
 
 def draft_of(function, mesh):
-    return Draft(Misfit(Counted(function), 1 / 40), mesh)
+    return Draft.of(Misfit(Counted(function), 1 / 40), mesh)
 
 
 def objective(draft):
@@ -73,29 +75,84 @@ def objective(draft):
 @pytest.mark.parametrize("domain", ["square", "ring"])
 def test_every_step_leaves_a_valid_mesh_that_interpolates(domain, ring, rng):
     mesh = ring if domain == "ring" else delaunay(scattered(rng, 20))
-    draft, seen = draft_of(front, mesh), []
-
-    def note(step):
+    seen = set()
+    for step, draft in strategy.strategy(draft_of(front, mesh), 150):
         draft.mesh.validate()
         assert draft.mesh.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
         assert np.array_equal(draft.values, front(*draft.nodes.T))
         u_h = Interpolant(draft.mesh, draft.values)
         assert draft.error == pytest.approx(finely(u_h).l2_error(front, "exact", degree=12), rel=5e-3)
-        seen.append(step)
-
-    strategy.strategy(draft, 150, note)
+        seen.add(step)
     assert draft.n_nodes == 150
-    assert set(seen) == {"grown", "moved", "renewed"}
+    assert seen == {"grown", "moved", "renewed"}
+
+
+OPERATIONS = [
+    swapped,
+    moved,
+    divided,
+    settled_on_boundary,
+    strategy.improved,
+    lambda draft: inserted(draft, 10),
+    lambda draft: bisected(draft, 10),
+    lambda draft: collapsed(draft, 0.2),
+    lambda draft: draft.measured(4),
+    lambda draft: draft.measured_finely(2),
+]
+
+
+def contents(thing):
+    """All that a draft holds, down to arrays and numbers, by the way to it."""
+    if hasattr(thing, "__dict__") and not isinstance(thing, (type, Counted)):
+        return {(k, *way): v for k, part in vars(thing).items() for way, v in contents(part).items()}
+    return {(): np.array(thing) if isinstance(thing, np.ndarray) else thing}
+
+
+@pytest.mark.parametrize("operation", OPERATIONS)
+def test_no_operation_changes_what_the_draft_before_it_holds(operation, rng):
+    """So a draft that is kept is a complete snapshot, whatever attributes it may have one day."""
+    nodes = np.concatenate([scattered(rng, 80), [[0.5, 0.02]]])  # the last may be put on the boundary
+    draft = draft_of(lambda x, y: front(x, y) / 8, delaunay(nodes))
+    before = contents(draft)
+    after = operation(draft)
+    held = contents(draft)
+    assert {way[0] for way in before} == {field.name for field in fields(Draft)}
+    assert all(np.array_equal(held[way], value) for way, value in before.items())
+    assert not all(np.array_equal(contents(after).get(way), value) for way, value in before.items())
+
+
+def test_a_draft_is_read_only(rng):
+    draft = draft_of(front, delaunay(scattered(rng, 8)))
+    with pytest.raises(FrozenInstanceError):
+        draft.values = draft.values + 1
+    arrays = [array for array in vars(draft).values() if isinstance(array, np.ndarray)]
+    assert len(arrays) == 4 and not any(array.flags.writeable for array in arrays)
+
+
+def test_a_function_may_return_an_array_that_it_keeps():
+    mesh = delaunay(lattice(3, 3) / 3)
+    kept = front(*mesh.nodes.T)
+    Draft.of(Misfit(Counted(lambda x, y: kept if len(x) == 16 else front(x, y)), 1 / 40), mesh)
+    assert kept.flags.writeable
+
+
+def test_rounds_of_renewal_go_on_with_the_best_draft_met(rng):
+    draft = draft_of(front, delaunay(scattered(rng, 80)))
+    met, rounds = [draft], strategy.renewed_in_rounds(draft, draft.n_nodes, 4)
+    with pytest.raises(StopIteration) as end:
+        while True:
+            step, draft = next(rounds)
+            met += [draft] if step == "moved" else []
+    assert len(met) == 5 and {draft.n_nodes for draft in met} == {96}
+    assert end.value.value is min(met, key=objective)
 
 
 def test_moves_and_swaps_never_raise_the_error(rng):
     draft = draft_of(front, delaunay(scattered(rng, 80)))
-    before = objective(draft)
-    for change in (swap, move, swap, move, swap):
-        assert change(draft) > 0
-        assert objective(draft) < before
-        before = objective(draft)
-    assert swap(draft) == 0
+    for change in (swapped, moved, swapped, moved, swapped):
+        before, draft = draft, change(draft)
+        assert objective(draft) < objective(before)
+    assert swapped(draft).mesh is draft.mesh
 
 
 def test_corners_stay_and_holes_stay_open(ring):
@@ -166,10 +223,10 @@ def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
 
 def test_bisections_leave_angles_as_they_were():
     """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they lie."""
-    draft = Draft(Misfit(Counted(front), 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
+    draft = Draft.of(Misfit(Counted(front), 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
     while draft.n_nodes < 200:
-        before = draft.n_nodes
-        assert 0 < bisect(draft, 200 - before) == draft.n_nodes - before
+        before, draft = draft, bisected(draft, 200 - draft.n_nodes)
+        assert before.n_nodes < draft.n_nodes <= 200
     draft.mesh.validate()
     assert np.degrees(angles(draft.mesh.corners)).min() == pytest.approx(45)
 
@@ -183,13 +240,11 @@ def test_an_element_that_would_be_refused_has_an_error_where_a_mesh_has_it():
 
 def test_another_power_or_a_finer_quadrature_leaves_the_misfit_of_others_as_it_is():
     misfit = Misfit(Counted(lambda x, y: front(x, y) / 8), 1 / 40)
-    one, other = (Draft(misfit, delaunay(lattice(3, 3) / 3)) for _ in range(2))
-    before = other.errors.copy()
-    one.measure(4)
-    one.measure_finely(2)
-    assert (one.misfit.squarings, one.misfit.spacing) == (4, 1 / 80) and one.misfit.unit < 1
-    assert other.misfit is misfit and misfit == Misfit(misfit.function, 1 / 40)
-    assert np.array_equal(other.error_of(other.elements), before)
+    draft = Draft.of(misfit, delaunay(lattice(3, 3) / 3))
+    other = draft.measured(4).measured_finely(2)
+    assert (other.misfit.squarings, other.misfit.spacing) == (4, 1 / 80) and other.misfit.unit < 1
+    assert draft.misfit is misfit and misfit == Misfit(misfit.function, 1 / 40)
+    assert np.array_equal(draft.error_of(draft.elements), draft.errors)
 
 
 def test_the_history_tells_every_step():
@@ -335,7 +390,7 @@ def test_divided_elements_are_a_valid_mesh_with_a_smaller_error(seed):
     rng = np.random.default_rng(seed)
     draft = draft_of(lambda x, y: np.exp(x + y), delaunay(scattered(rng, 12)))
     nodes, edges, before = draft.n_nodes, draft.mesh.n_edges, draft.error
-    assert divide(draft)
+    draft = divided(draft)
     assert nodes < draft.mesh.validate().n_nodes <= nodes + edges
     assert draft.error < before and draft.mesh.domain_area == pytest.approx(1)
     assert np.array_equal(draft.side != INTERIOR, draft.mesh.boundary_nodes)
@@ -346,7 +401,7 @@ def test_a_mesh_without_an_error_is_not_divided_but_once(rng):
     mesh = delaunay(lattice(8, 8) / 8)
     draft = draft_of(lambda x, y: np.maximum(x - 0.5, 0) ** 2, mesh)
     flat = mesh.nodes[mesh.elements].max(axis=1)[:, 0] <= 0.5
-    divide(draft)
+    draft = divided(draft)
     left = draft.mesh.nodes[draft.mesh.elements].max(axis=1)[:, 0] <= 0.5
     assert flat.sum() == 64 and 64 <= left.sum() <= 64 + 8 * 4 and draft.mesh.n_elements > 256
 
@@ -552,7 +607,7 @@ def test_what_cannot_be_asked(arguments, message):
 @pytest.mark.parametrize("squarings", [1, 4])
 def test_the_slope_of_the_error_of_a_patch_is_its_derivative(squarings, rng):
     draft = draft_of(FRANKE, delaunay(scattered(rng, 200)))
-    draft.measure(squarings)
+    draft = draft.measured(squarings)
     sweep = _Sweep(draft)
     nodes = next(sweep.classes())
     nodes = nodes[draft.side[nodes] == INTERIOR]

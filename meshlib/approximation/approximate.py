@@ -1,7 +1,6 @@
 """The mesh for a known function: nodes in, the best piecewise linear function out."""
 
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 import numpy as np
 
@@ -16,8 +15,8 @@ from .node_count import least
 from .one_direction import in_turn
 from .samples import Samples
 from .settings import Settings
-from .start_mesh import corners, fit, regular, start
-from .strategy import polish, steps, strategy
+from .start_mesh import corners, fitted, regular, start
+from .strategy import most_steps, polished, strategy
 from .working_mesh import Draft
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
@@ -181,21 +180,20 @@ class Task:
     settings: Settings = Settings()
 
     def with_nodes(self, nodes):
-        """The mesh of so many nodes."""
+        """The mesh with a given number of nodes."""
         settings = self.settings
         first = start(self.domain, nodes, self.seed, settings.start)
         spacing = float(np.sqrt(first.domain_area) / settings.quadrature.resolution)
         misfit = Misfit(Counted(self.function), spacing, self.sharpest, settings.quadrature)
         ridge = self._ridge(misfit, nodes)
         if ridge is not None:
-            draft = Draft(misfit, ridge, self.norm, settings)
+            draft = Draft.of(misfit, ridge, self.norm, settings)
             if self.norm == "max":
-                draft.measure(settings.objective.squarings)
-            return self._run(draft, settings.rounds.last_moves + 1, partial(polish, draft))
-        draft = Draft(misfit, first, self.norm, settings)
-        fit(draft, nodes)
+                draft = draft.measured(settings.objective.squarings)
+            return self._run(polished(draft), settings.rounds.last_moves + 1)
+        draft = fitted(Draft.of(misfit, first, self.norm, settings), nodes)
         lattice = None if isinstance(self.domain, Mesh) else regular(self.domain, nodes)
-        return self._run(draft, steps(draft, nodes), partial(strategy, draft, nodes, regular=lattice))
+        return self._run(strategy(draft, nodes, lattice), most_steps(draft, nodes))
 
     def within(self, tolerance):
         """The mesh of about the fewest nodes whose error is within the tolerance."""
@@ -223,19 +221,14 @@ class Task:
         power = 2 ** (self.settings.objective.squarings if self.norm == "max" else 1)
         return in_turn(misfit.values, *corners(self.domain), nodes, power, self.settings.one_direction)
 
-    def _run(self, draft, total, adapt):
+    def _run(self, steps, most_steps):
         history = []
-        with Watch(self.progress, total, "step") as watch:
-
-            def note(step):
+        with Watch(self.progress, most_steps, "step") as watch:
+            for step, draft in _and_measured(steps, self.settings.quadrature.final_refinement):
                 history.append((step, *_state(draft)))
                 watch.report(len(history))
                 if watch.stopped:
                     raise Interrupted(self._result(draft, history))
-
-            adapt(note)
-            draft.measure_finely(self.settings.quadrature.final_refinement)
-            note("measured")
         return self._result(draft, history)
 
     def _result(self, draft, history):
@@ -251,8 +244,14 @@ class Task:
         )
 
 
+def _and_measured(steps, refinement):
+    """The steps, and a last one that measures the error by a finer quadrature."""
+    draft = yield from steps
+    yield "measured", draft.measured_finely(refinement)
+
+
 def _state(draft):
-    return draft.n_nodes, len(draft.elements), draft.error, draft.misfit.function.evaluations
+    return draft.n_nodes, draft.n_elements, draft.error, draft.misfit.function.evaluations
 
 
 def _tolerance(tolerance):

@@ -7,22 +7,22 @@ from ..mesh.boundary_sides import CORNER
 from .patches import Patches
 
 
-def move(draft):
-    """Move every node once, if that lowers the error; returns how many moved.
+def moved(draft):
+    """The draft with every node moved once, if that lowers the error.
 
     Nodes of one colour have no element in common, so that they move together.
     """
     sweep = _Sweep(draft)
-    moved = sum(sweep.improve(nodes) for nodes in sweep.classes())
-    draft.settle(sweep.errors, draft.fresh)
-    return moved
+    for nodes in sweep.classes():
+        sweep.improve(nodes)
+    return sweep.result()
 
 
 class _Sweep:
     """Nodes on their way, and the errors and moments of their elements."""
 
     def __init__(self, draft):
-        draft.nodes, draft.values, draft.fresh = draft.nodes.copy(), draft.values.copy(), draft.fresh.copy()
+        self.nodes, self.values, self.fresh = draft.nodes.copy(), draft.values.copy(), draft.fresh.copy()
         self.draft, self.around, self.patches = draft, draft.neighbours(), draft.patches()
         self.little, self.settings = draft.little, draft.settings.moves
         self.errors, self.moments = draft.misfit.moments(
@@ -39,21 +39,24 @@ class _Sweep:
         return (np.flatnonzero(colour == c) for c in range(colour.max() + 1))
 
     def improve(self, nodes):
-        """Move the nodes that can be moved for the better; returns how many."""
+        """Move the nodes that can be moved for the better."""
         if not len(nodes):
-            return 0
+            return
         patches = self._patches(nodes)
         step, gain = self._steps(patches)
         left = np.flatnonzero(gain > self.settings.worthwhile * patches.error + self.little)
-        moved = 0
         for share in self.settings.step_shares:
             if len(left):
-                better = self._try(nodes[left], share * step[left])
-                moved, left = moved + int(better.sum()), left[~better]
-        return moved
+                left = left[~self._try(nodes[left], share * step[left])]
+
+    def result(self):
+        """The draft with the nodes where they are now."""
+        return self.draft.changed(
+            self.nodes, self.draft.elements, values=self.values, errors=self.errors, fresh=self.fresh
+        )
 
     def _patches(self, nodes):
-        return Patches(self.draft, nodes, *self.patches.of(nodes), self.errors, self.moments)
+        return Patches(self, nodes)
 
     def _steps(self, patches):
         """Newton's steps, and the gain that they promise."""
@@ -66,16 +69,16 @@ class _Sweep:
 
     def _try(self, nodes, step):
         """Move nodes by a step where the error falls; returns where it did."""
-        draft, patches = self.draft, self._patches(nodes)
-        at = patches.kept_on_sides(draft.nodes[nodes] + step)
-        there = draft.misfit.values(*at.T.copy())
+        patches = self._patches(nodes)
+        at = patches.kept_on_sides(self.nodes[nodes] + step)
+        there = self.draft.misfit.values(*at.T.copy())
         error, of_element, moments = patches.moved(at, there)
         better = error < patches.error * (1 - self.settings.smallest_gain)
-        draft.nodes[nodes[better]], draft.values[nodes[better]] = at[better], there[better]
+        self.nodes[nodes[better]], self.values[nodes[better]] = at[better], there[better]
         changed = better[patches.row]
         element = patches.element[changed]
         self.errors[element], self.moments[element] = of_element[changed], moments[changed]
-        draft.fresh[element] = True
+        self.fresh[element] = True
         return better
 
 

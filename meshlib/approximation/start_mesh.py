@@ -7,7 +7,7 @@ from ..errors import MeshError
 from ..mesh.delaunay import delaunay
 from ..mesh.mesh import Mesh
 from ..support.random_numbers import Draws
-from .collapse import collapse
+from .collapse import collapsed
 
 LARGEST_STRETCH = 1e3  # of a rectangle
 
@@ -57,10 +57,12 @@ def corners(domain):
     return low, high
 
 
-def fit(draft, nodes):
-    """Take nodes out of a start mesh that has too many."""
+def fitted(draft, nodes):
+    """The draft without the nodes that a start mesh has too many."""
     while draft.n_nodes > nodes:
-        if not collapse(draft, 1 - nodes / draft.n_nodes):
+        before, draft = draft, collapsed(draft, 1 - nodes / draft.n_nodes)
+        if draft.n_nodes == before.n_nodes:
             raise MeshError(
                 "nodes", f"{nodes} nodes are too few for this domain, {draft.n_nodes} are left; give more"
             )
+    return draft

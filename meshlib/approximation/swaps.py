@@ -1,20 +1,20 @@
 """Swaps that lower the error, many at a time."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..mesh.topology import quadrilaterals
 from ..support.independent import coarse, independent
 
 
-def swap(draft, passes=None):
-    """Swap edges until none lowers the error, or so many passes are over; returns the number of swaps."""
-    total = 0
+def swapped(draft, passes=None):
+    """The draft after swaps of edges until none lowers the error, or until the last pass."""
     for _ in range(passes or draft.settings.swaps.passes):
-        swaps = _pass(draft)
-        total += swaps
-        if not swaps:
+        before, draft = draft, _pass(draft)
+        if draft.mesh is before.mesh:
             break
-    return total
+    return draft
 
 
 def _pass(draft):
@@ -40,8 +40,7 @@ def _pass(draft):
     chosen = good[
         independent(gain[good], np.repeat(np.arange(len(good)), 2), pairs[good].ravel(), len(draft.elements))
     ]
-    _exchange(draft, pairs[chosen].T, (first[chosen], second[chosen]), new[:, chosen])
-    return len(chosen)
+    return _exchanged(draft, pairs[chosen].T, (first[chosen], second[chosen]), new[:, chosen])
 
 
 def _promising(draft):
@@ -52,13 +51,12 @@ def _promising(draft):
     return edges[old > draft.little]
 
 
-def _exchange(draft, rows, elements, errors):
-    """Put new elements and their errors into rows, and take only these for new."""
-    fresh = np.zeros(len(draft.elements), dtype=bool)
+def _exchanged(draft, rows, elements, errors):
+    """The draft with other elements and errors in some rows, which alone count as new."""
+    fresh = np.zeros(draft.n_elements, dtype=bool)
     if not rows.size:
-        draft.fresh = fresh
-        return
-    draft.elements = draft.elements.copy()
+        return replace(draft, fresh=fresh)
+    all_elements, all_errors = draft.elements.copy(), draft.errors.copy()
     for row, nodes, error in zip(rows, elements, errors, strict=True):
-        draft.elements[row], draft.errors[row], fresh[row] = nodes, error, True
-    draft.settle(draft.errors, fresh)
+        all_elements[row], all_errors[row], fresh[row] = nodes, error, True
+    return draft.changed(draft.nodes, all_elements, errors=all_errors, fresh=fresh)
