@@ -57,7 +57,7 @@ def scattered(rng, n):
 
 def finely(u_h):
     """The same function on elements a quarter of the size, whose quadrature sees more."""
-    mesh = refined(u_h.mesh, u_h.values, "abn", 1.0, split="red-green").mesh
+    mesh = refined(u_h.mesh, u_h.values, "abn", fraction=1.0, split="red-green").mesh
     return Interpolant(mesh, u_h(*mesh.nodes.T))
 
 
@@ -81,7 +81,7 @@ def test_every_step_leaves_a_valid_mesh_that_interpolates(domain, ring, rng):
         assert draft.mesh.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
         assert np.array_equal(draft.values, front(*draft.nodes.T))
         u_h = Interpolant(draft.mesh, draft.values)
-        assert draft.error == pytest.approx(finely(u_h).l2_error(front, "exact", degree=12), rel=5e-3)
+        assert draft.error == pytest.approx(finely(u_h).l2_error(front, rule="exact", degree=12), rel=5e-3)
         seen.add(step)
     assert draft.n_nodes == 150
     assert seen == {"grown", "moved", "renewed"}
@@ -156,7 +156,7 @@ def test_moves_and_swaps_never_raise_the_error(rng):
 
 
 def test_corners_stay_and_holes_stay_open(ring):
-    found = approximate(front, 120, domain=ring)
+    found = approximate(front, nodes=120, domain=ring)
     corners = ring.nodes[sides_of(ring).of_node == CORNER]
     assert len(corners) == 8
     assert (np.abs(found.mesh.nodes[:, None] - corners).sum(axis=2).min(axis=0) == 0).all()
@@ -166,7 +166,7 @@ def test_corners_stay_and_holes_stay_open(ring):
 
 
 def test_the_same_seed_gives_the_same_mesh_and_another_another():
-    one, again, other = (approximate(front, 50, seed=seed) for seed in (0, 0, 1))
+    one, again, other = (approximate(front, nodes=50, seed=seed) for seed in (0, 0, 1))
     assert one.mesh.equals(again.mesh) and np.array_equal(one.history, again.history)
     assert not one.mesh.equals(other.mesh)
 
@@ -176,7 +176,7 @@ import numpy as np
 from meshlib import approximate, problems
 for norm in ("L2", "max"):
     for name in ("franke", "DD1"):
-        found = approximate(problems.functions[name], 60, norm=norm).mesh
+        found = approximate(problems.functions[name], nodes=60, norm=norm).mesh
         print(found.nodes.tobytes().hex(), found.elements.tobytes().hex())
 """
 
@@ -198,25 +198,25 @@ def test_processors_that_round_differently_give_the_same_mesh():
 
 
 def test_a_plane_costs_nothing():
-    found = approximate(lambda x, y: 3 * x - 2 * y + 1, 30)
+    found = approximate(lambda x, y: 3 * x - 2 * y + 1, nodes=30)
     assert found.error < 1e-14 and found.mesh.validate().n_nodes == 30
 
 
 def test_few_nodes():
-    assert approximate(front, 4).mesh.counts == (4, 5, 2)
-    assert approximate(front, 3, domain=delaunay([[0, 0], [1, 0], [0, 1]])).mesh.counts == (3, 3, 1)
-    assert approximate(front, 5).mesh.n_nodes == 5
+    assert approximate(front, nodes=4).mesh.counts == (4, 5, 2)
+    assert approximate(front, nodes=3, domain=delaunay([[0, 0], [1, 0], [0, 1]])).mesh.counts == (3, 3, 1)
+    assert approximate(front, nodes=5).mesh.n_nodes == 5
 
 
 def test_a_start_mesh_with_too_many_nodes_loses_some(rng):
     start = delaunay(scattered(rng, 60))
-    assert approximate(front, 40, domain=start).mesh.validate().n_nodes == 40
+    assert approximate(front, nodes=40, domain=start).mesh.validate().n_nodes == 40
 
 
 @pytest.mark.parametrize("function", [front, problems.functions["DD1"]])
 @pytest.mark.parametrize("angle", [10, 20, 30])
 def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
-    found = approximate(function, 120, min_angle=angle)
+    found = approximate(function, nodes=120, min_angle=angle)
     assert np.degrees(angles(found.mesh.corners).min()) >= angle - 1e-9
     assert found.mesh.n_nodes == 120
 
@@ -248,7 +248,7 @@ def test_another_power_or_a_finer_quadrature_leaves_the_misfit_of_others_as_it_i
 
 
 def test_the_history_tells_every_step():
-    found = approximate(front, 100)
+    found = approximate(front, nodes=100)
     last = found.history[-1]
     assert (last["nodes"], last["elements"], last["error"]) == (100, found.mesh.n_elements, found.error)
     assert last["evaluations"] == found.evaluations
@@ -271,15 +271,15 @@ def test_the_history_tells_every_step():
 )
 def test_the_error_is_near_the_limit(function, limit, most):
     """Error times elements over B: 1 is what no mesh of very many elements is much below."""
-    found = approximate(function, 300)
-    error = found.interpolant.l2_error(function, "exact", degree=12)
+    found = approximate(function, nodes=300)
+    error = found.interpolant.l2_error(function, rule="exact", degree=12)
     assert 0.85 < error * found.mesh.n_elements / limit < most
 
 
 @pytest.mark.parametrize("name, strips", [("SR1", 0.0966), ("SR2", 0.4347)])
 def test_a_function_of_one_direction_gets_three_quarters_of_the_error_of_strips(name, strips):
     """Parallel strips give the constant over the square of their number, here 199."""
-    found = approximate(problems.functions[name], 400)
+    found = approximate(problems.functions[name], nodes=400)
     assert found.mesh.validate().boundary_nodes.all()
     assert found.error / (strips / 199**2) == pytest.approx(0.75, abs=0.01)
 
@@ -294,7 +294,7 @@ def test_nodes_in_turn_in_figures():
         return x**2
 
     mesh = in_turn(u, np.zeros(2), np.ones(2), 402, 2, OneDirection())
-    error = Interpolant(mesh, u).l2_error(u, "exact")
+    error = Interpolant(mesh, u).l2_error(u, rule="exact")
     assert error / (2 * np.sqrt(6 / 720) / 200**2) == pytest.approx(0.75, rel=0.02)
 
 
@@ -322,13 +322,13 @@ def test_a_little_more_or_fewer_nodes_make_little_difference(nodes):
     def circle(x, y):
         return np.tanh(20 * (np.hypot(x - 0.5, y - 0.5) - 0.3))
 
-    found = approximate(circle, nodes)
+    found = approximate(circle, nodes=nodes)
     assert 0.9 < found.error * found.mesh.n_elements / 3.53 < 1.1
 
 
 @pytest.mark.parametrize("function", [front, FRANKE, problems.functions["SR2"]])
 def test_the_largest_error_is_lower_where_it_is_asked_for(function):
-    mean, largest = (approximate(function, 100, norm=norm) for norm in ("L2", "max"))
+    mean, largest = (approximate(function, nodes=100, norm=norm) for norm in ("L2", "max"))
     x, y = np.meshgrid(*[np.linspace(0, 1, 2001)] * 2)
     worst = [np.abs(found.interpolant(x, y) - function(x, y)).max() for found in (mean, largest)]
     assert worst[1] < 0.95 * worst[0]
@@ -337,7 +337,7 @@ def test_the_largest_error_is_lower_where_it_is_asked_for(function):
 
 
 def test_the_largest_error_of_a_function_of_one_direction_is_lower_where_it_is_asked_for():
-    mean, largest = (approximate(problems.functions["SR2"], 60, norm=norm) for norm in ("L2", "max"))
+    mean, largest = (approximate(problems.functions["SR2"], nodes=60, norm=norm) for norm in ("L2", "max"))
     x, y = np.meshgrid(*[np.linspace(0, 1, 801)] * 2)
     worst = [
         np.abs(found.interpolant(x, y) - problems.functions["SR2"](x, y)).max() for found in (mean, largest)
@@ -348,7 +348,7 @@ def test_the_largest_error_of_a_function_of_one_direction_is_lower_where_it_is_a
 @pytest.mark.parametrize("factor", [2.0**-80, 2.0**80])
 def test_the_largest_error_of_large_and_small_functions(factor):
     """Its sixteenth power is no number any more."""
-    ones, others = (approximate(lambda x, y, f=f: f * front(x, y), 60, norm="max") for f in (1, factor))
+    ones, others = (approximate(lambda x, y, f=f: f * front(x, y), nodes=60, norm="max") for f in (1, factor))
     assert others.mesh.equals(ones.mesh) and others.error == factor * ones.error
     assert np.array_equal(others.values, factor * ones.values)
 
@@ -356,7 +356,7 @@ def test_the_largest_error_of_large_and_small_functions(factor):
 @pytest.mark.parametrize("norm, error", [("L2", 0.21082 / 162), ("max", 1 / 324)])
 def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
     """With spacings h, x^2 - y^2 has an L2 error of h^2 / sqrt(90), the limit, and a largest of h^2 / 4."""
-    found = approximate(problems.functions["hyperbolic"], 100, norm=norm)
+    found = approximate(problems.functions["hyperbolic"], nodes=100, norm=norm)
     assert found.mesh.validate().counts == (100, 261, 162)
     assert found.error == pytest.approx(error, rel=1e-4)
     assert "compared" in found.history["step"]
@@ -365,7 +365,7 @@ def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
 @pytest.mark.parametrize("function", [front, problems.functions["DD1"]])
 def test_the_error_is_confirmed_by_another_quadrature(function):
     """On elements divided until their part has settled; DD1 has kinks."""
-    found = approximate(function, 100)
+    found = approximate(function, nodes=100)
     assert found.error == pytest.approx(settled_error(found.mesh, function), rel=1e-3)
     assert found.history["step"][-1] == "measured"
 
@@ -373,9 +373,12 @@ def test_the_error_is_confirmed_by_another_quadrature(function):
 def test_a_lattice_with_smaller_angles_than_allowed_is_not_taken():
     """Of cells twice as high as wide it would have angles of 26.6 degrees."""
     assert regular(((0, 0), (1, 4)), 6).counts == (6, 9, 4)
-    found = approximate(lambda x, y: 4 * x * x - y * y, 6, ((0, 0), (1, 4)), min_angle=30)
+    found = approximate(lambda x, y: 4 * x * x - y * y, nodes=6, domain=((0, 0), (1, 4)), min_angle=30)
     assert "compared" not in found.history["step"]
-    assert "compared" in approximate(lambda x, y: 4 * x * x - y * y, 6, ((0, 0), (1, 4))).history["step"]
+    assert (
+        "compared"
+        in approximate(lambda x, y: 4 * x * x - y * y, nodes=6, domain=((0, 0), (1, 4))).history["step"]
+    )
 
 
 def test_a_lattice_fits_its_rectangle():
@@ -479,7 +482,7 @@ def test_every_setting_is_read_somewhere():
 
 def test_settings_reach_the_mesh():
     task = Task(front, UNIT_SQUARE, 0.0, "L2", 0, False)
-    assert task.with_nodes(40).mesh.equals(approximate(front, 40).mesh)
+    assert task.with_nodes(40).mesh.equals(approximate(front, nodes=40).mesh)
     still = replace(task, settings=Settings(rounds=Rounds(main=0, early=0, last_moves=0)))
     steps = still.with_nodes(40).history["step"].tolist()
     assert steps == ["grown", "moved"] * 2 + ["compared", "measured"]
@@ -491,7 +494,7 @@ def test_settings_reach_the_mesh():
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        ({"nodes": 2}, "range: nodes is 2; give a whole number from 3"),
+        ({"nodes": 2}, "range: nodes is 2; give a whole number of at least 3"),
         ({"nodes": 3}, "nodes: 3 nodes are too few for this domain, 4 are left; give more"),
         (
             {"domain": ((0, 0), (0, 1))},
@@ -505,7 +508,7 @@ def test_settings_reach_the_mesh():
         ),
         ({"min_angle": 40}, "range: min_angle is 40; give degrees from 0 to 30"),
         ({"norm": "L1"}, "unknown: norm 'L1' is not known"),
-        ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
+        ({"seed": -1}, "range: seed is -1; give a whole number of at least 0"),
         ({"function": lambda x, y: x[:1]}, "shape: the function returned shape"),
         ({"function": lambda x, y: x + 1j}, "dtype complex128 for points"),
         ({"function": lambda x, y: np.where(x > 0.9, np.nan, x)}, "it must be finite in the whole domain"),
@@ -524,7 +527,7 @@ def test_an_interrupt_keeps_the_mesh(monkeypatch):
 
     monkeypatch.setattr("meshlib.support.progress.Watch.report", report)
     with pytest.raises(Interrupted) as stop:
-        approximate(front, 100)
+        approximate(front, nodes=100)
     found = stop.value.result
     assert len(found.history) == 3 and found.mesh.validate().n_nodes >= 16
     assert np.array_equal(found.values, front(*found.mesh.nodes.T))
@@ -537,8 +540,8 @@ def test_an_interrupt_keeps_the_mesh(monkeypatch):
 def test_a_tolerance_is_reached_and_three_per_cent_fewer_nodes_miss_it(tolerance):
     found = approximate(FRANKE, tolerance=tolerance)
     assert found.error <= tolerance
-    assert approximate(FRANKE, int(found.mesh.n_nodes / 1.03) - 1).error > tolerance
-    assert found.evaluations > approximate(FRANKE, found.mesh.n_nodes).evaluations
+    assert approximate(FRANKE, nodes=int(found.mesh.n_nodes / 1.03) - 1).error > tolerance
+    assert found.evaluations > approximate(FRANKE, nodes=found.mesh.n_nodes).evaluations
 
 
 @pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
@@ -568,7 +571,7 @@ def test_samples_on_a_grid_are_bilinear_between():
 
 def test_samples_give_the_mesh_of_their_function():
     ticks = np.linspace(0, 1, 401)
-    found, exact = approximate(front(*np.meshgrid(ticks, ticks)), 100), approximate(front, 100)
+    found, exact = approximate(front(*np.meshgrid(ticks, ticks)), nodes=100), approximate(front, nodes=100)
     found.mesh.validate()
     assert found.error == pytest.approx(exact.error, rel=0.1)
     assert found.values == pytest.approx(front(*found.mesh.nodes.T), abs=2e-3)

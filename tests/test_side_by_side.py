@@ -193,7 +193,7 @@ def test_in_turn_ends_where_neither_way_gains():
     mesh = combining.in_turn("SR2")
     assert np.degrees(angles(mesh.corners).min()) > 9.99
     for way in ("swap", "move"):
-        assert not len(combined(mesh, problems.SR2, ways=way, min_angle=combining.LIMIT).steps)
+        assert not len(combined(mesh, problems.SR2, ways=way, min_angle=combining.LIMIT).history)
 
 
 # -- figures --------------------------------------------------------------------------------------

@@ -1,12 +1,14 @@
 """The mesh for a known function: nodes in, the best piecewise linear function out."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import checks
-from ..errors import Interrupted, MeshError
-from ..interpolation.interpolant import Interpolant
+from .._typing import ArrayLike, Function, Norm
+from ..criteria import norms
+from ..errors import Interrupted, InvalidInputError, NotReachedError
+from ..interpolation.record import Record
 from ..mesh.boundary_sides import sides_of
 from ..mesh.mesh import Mesh
 from ..support.progress import Watch
@@ -21,7 +23,7 @@ from .working_mesh import Draft
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
 LARGEST_MIN_ANGLE = 30.0
-NORMS = "L2", "max"
+NORMS = {2: "L2", "max": "max"}
 STEP = np.dtype(
     [
         ("step", "U8"),
@@ -33,8 +35,8 @@ STEP = np.dtype(
 )
 
 
-@dataclass(frozen=True)
-class Approximation:
+@dataclass(frozen=True, repr=False, eq=False)
+class Approximation(Record):
     """A mesh made for a function.
 
     Attributes
@@ -43,46 +45,50 @@ class Approximation:
     values : (N,) ndarray of float64
         The function at the nodes.
     error : float
-        Norm of u - u_h over the domain, by a finer quadrature than led the search, or at more points.
+        Norm of u - u_h over the domain, by a quadrature finer than the one that led the
+        search, or at more points.
     evaluations : int
-        Points at which the function was evaluated.
+        Number of points at which the function was evaluated.
     history : structured ndarray
         A row for each step: ``step`` (``"grown"``, ``"moved"``, ``"renewed"``, ``"compared"`` with
         a regular mesh, and at last ``"measured"`` by a finer quadrature), and what there was
         after it: ``nodes``, ``elements``, ``error``, ``evaluations``.
     seed : int
-    norm : {"L2", "max"}
+    norm : {2, "max"}
     """
 
-    mesh: Mesh
-    values: np.ndarray = field(repr=False)
     error: float
     evaluations: int
-    history: np.ndarray = field(repr=False)
+    history: np.ndarray
     seed: int
-    norm: str = "L2"
+    norm: Norm = 2
 
     @property
-    def interpolant(self):
-        """The continuous piecewise linear function."""
-        return Interpolant(self.mesh, self.values)
+    def cost_before(self) -> float:
+        """Norm of the error of the first mesh, by the quadrature of the search."""
+        return float(self.history["error"][0])
+
+    @property
+    def cost_after(self) -> float:
+        """Norm of the error of the mesh, which is ``error``."""
+        return self.error
 
 
 def approximate(
-    function,
-    nodes=None,
-    domain=UNIT_SQUARE,
-    min_angle=None,
-    seed=0,
-    progress=False,
+    function: Function | ArrayLike,
     *,
-    tolerance=None,
-    norm="L2",
-):
-    """The mesh of so many nodes, or of such an error, whose interpolant is nearest to a function.
+    nodes: int | None = None,
+    tolerance: float | None = None,
+    norm: Norm = "L2",
+    domain: ArrayLike | Mesh = UNIT_SQUARE,
+    min_angle: float | None = None,
+    seed: int = 0,
+    progress: bool = False,
+) -> Approximation:
+    """The mesh with a given number of nodes, or error, that best approximates a function.
 
-    Nodes go in where the error is largest, out where they serve least, and move and
-    change their edges to where it is least, in rounds, until little is left to gain.
+    In rounds, until little is left to gain, nodes are inserted where the error is largest,
+    taken out where they serve least, and moved, and edges are swapped, so that the error falls.
 
     Parameters
     ----------
@@ -91,6 +97,14 @@ def approximate(
         the domain's box, rows from its lower to its upper side, bilinear between them.
     nodes : int, optional
         Number of nodes of the mesh. Give this or the tolerance.
+    tolerance : float, optional
+        Norm of the error that is allowed; it is reached with as few nodes as possible, at
+        most 200,000. Meshes are made with several numbers of nodes, so that this takes a few
+        times as long.
+    norm : {"L2", "max"}
+        Whether the mean square of the error or the largest error is to be small; 2 and
+        infinity are other names. The largest is found by lowering the integral of the
+        sixteenth power, after the square.
     domain : pair of corners, or Mesh
         The rectangle from the lower left to the upper right corner, or a start mesh:
         its domain is kept, holes included; its nodes need not stay, but for those where
@@ -99,16 +113,9 @@ def approximate(
         No change makes an element with an angle below this many degrees, at most 30.
         A mesh adapted without it has very long elements along fronts.
     seed : int
-        Of the first nodes, which are a lattice moved at random.
+        Seed of the first nodes, which are a lattice moved at random.
     progress : bool
         Whether to show a progress bar.
-    tolerance : float, optional
-        Norm of the error that is to be reached with as few nodes as possible, at most
-        MOST_NODES. Meshes are made with several numbers of nodes, so that this takes a few
-        times as long.
-    norm : {"L2", "max"}
-        Whether the mean square of the error or the largest is to be small. The latter is
-        found by lowering the integral of the sixteenth power, after the square.
 
     Returns
     -------
@@ -127,9 +134,10 @@ def approximate(
     ``B / T`` with ``B = (integral of (c |det D2 u|)^(1/3))^(3/2)``, ``c`` = 4/45 where the
     Hessian is definite and 1/90 where it is not [mirebeau2010]_.
 
-    What lowers the error by quadrature might raise the error itself, were features
-    missed between its points: elements are divided for quadrature until these lie as
-    densely as a fortieth of the domain has it, and long elements along their length.
+    *Number of evaluations.* To avoid missing features, quadrature points are spaced at
+    most 1/40 of the side of a square as large as the domain apart. The function is therefore
+    evaluated at many points, whatever the number of nodes: some tens of millions in all for
+    a mesh of 20 nodes, which is ``evaluations`` in the result.
 
     A function that is constant along parallel lines gets a mesh of its own on a
     rectangle, unless angles are limited: all its nodes are on the boundary. On a
@@ -145,23 +153,23 @@ def approximate(
 
     Examples
     --------
-    >>> from meshlib import delaunay
+    >>> from meshlib import Interpolant, delaunay
     >>> def front(x, y):
     ...     return np.tanh(20 * (np.hypot(x, y) - 0.7))
-    >>> found = approximate(front, 60)
+    >>> found = approximate(front, nodes=60)
     >>> found.mesh.n_nodes, bool(found.error < 0.02)
     (60, True)
     >>> lattice = np.stack(np.meshgrid(np.arange(8), np.arange(8)), axis=-1).reshape(-1, 2) / 7
-    >>> bool(Interpolant(delaunay(lattice), front).l2_error(front, "exact") > 0.06)
+    >>> bool(Interpolant(delaunay(lattice), front).l2_error(front) > 0.06)
     True
     """
     seed = checks.whole(seed, 0, "seed")
     angle = checks.number(min_angle or 0, "min_angle", 0, LARGEST_MIN_ANGLE + 1e-9, "degrees from 0 to 30")
     function = function if callable(function) else Samples(function, *_box(domain))
-    norm = checks.choice(norm, NORMS, "norm")
+    norm = NORMS[norms.checked(norm, tuple(NORMS))]
     task = Task(function, domain, float(np.radians(angle)), norm, seed, progress)
     if (nodes is None) == (tolerance is None):
-        raise MeshError("nodes", f"nodes is {nodes} and tolerance is {tolerance}; give one of them")
+        raise InvalidInputError("nodes", f"nodes is {nodes} and tolerance is {tolerance}; give one of them")
     if tolerance is None:
         return task.with_nodes(checks.whole(nodes, 3, "nodes"))
     return task.within(_tolerance(tolerance))
@@ -208,7 +216,7 @@ class Task:
         coarsest = start(self.domain, settings.fewest, self.seed, self.settings.start)
         found = least(trial, tolerance, len(sides_of(coarsest).corners), settings)
         if found is None:
-            raise MeshError(
+            raise NotReachedError(
                 "tolerance",
                 f"the tolerance {tolerance} is not reached with {settings.most} nodes; give a larger one",
             )
@@ -240,7 +248,7 @@ class Task:
             draft.misfit.function.evaluations,
             np.array(history, dtype=STEP),
             self.seed,
-            self.norm,
+            2 if self.norm == "L2" else "max",
         )
 
 
@@ -257,7 +265,7 @@ def _state(draft):
 def _tolerance(tolerance):
     found = checks.number(tolerance, "tolerance", 0, np.inf, "a number above 0")
     if not found > 0:
-        raise MeshError("tolerance", f"the tolerance is {tolerance}; give a number above 0")
+        raise NotReachedError("tolerance", f"the tolerance is {tolerance}; give a number above 0")
     return found
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import checks
-from ..errors import MeshError
+from ..errors import InvalidInputError
 from ..mesh.delaunay import delaunay
 from ..mesh.mesh import Mesh
 from ..support.random_numbers import Draws
@@ -42,14 +42,14 @@ def corners(domain):
     try:
         low, high = np.asarray(domain, dtype=float).reshape(2, 2)
     except (TypeError, ValueError):
-        raise MeshError(
+        raise InvalidInputError(
             "domain",
             f"the domain is {domain!r}; give the lower left and the upper right corner "
             "of a rectangle, or a mesh",
         ) from None
     size = high - low
     if not (np.isfinite(size).all() and (size > 0).all() and size.max() <= LARGEST_STRETCH * size.min()):
-        raise MeshError(
+        raise InvalidInputError(
             "domain",
             f"the rectangle from {low.tolist()} to {high.tolist()} has no area or is "
             "too long; give the lower left and the upper right corner",
@@ -62,7 +62,7 @@ def fitted(draft, nodes):
     while draft.n_nodes > nodes:
         before, draft = draft, collapsed(draft, 1 - nodes / draft.n_nodes)
         if draft.n_nodes == before.n_nodes:
-            raise MeshError(
+            raise InvalidInputError(
                 "nodes", f"{nodes} nodes are too few for this domain, {draft.n_nodes} are left; give more"
             )
     return draft

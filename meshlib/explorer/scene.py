@@ -8,9 +8,10 @@ import numpy as np
 
 from ..interpolation.interpolant import Interpolant
 from ..mesh.mesh import Mesh
-from ..mesh.quality import MEASURES, Quality, quality
+from ..mesh.quality import Quality, quality
 
 GRID = 101  # points along each side, for errors as the thesis measures them
+MEASURES = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
 UNITS = {"maximum_angle": " (°)"}
 NO_TRACE = ()
 
@@ -28,7 +29,7 @@ class Scene:
     film : tuple of Mesh
         The meshes after the start, at least one; the last is the adapted mesh.
     trace : structured array
-        Tried swaps as in `meshlib.swapping.swapped.Swapping.trace`, which lead from the start to
+        Tried swaps as in `meshlib.swapping.swapped.Swapping.history`, which lead from the start to
         the only mesh of the film; then each try is a frame.
     swaps : int
     cost : str

@@ -44,7 +44,7 @@ def _function(on_page=THESIS):
 
 
 def _nodes(on_page=("33", "81")):
-    return menu("nodes", "nodes", problems.names, on_page)
+    return menu("nodes", "nodes", problems.names(), on_page)
 
 
 # -- swap by swap (chapter 3) ----------------------------------------------------------------
@@ -52,9 +52,9 @@ def _nodes(on_page=("33", "81")):
 
 def _swaps(function, nodes, criterion, norm):
     start, u = problems.mesh(nodes), problems.functions[function]
-    found = swapped(start, u, criterion, norm, problems.order(nodes))
+    found = swapped(start, u, criterion, norm=norm, order=problems.order(nodes))
     title = f"{function} on {nodes} nodes, {criterion.upper()}-{NORM_NAMES[norm]}"
-    return Scene(title, u, start, (found.mesh,), found.trace, found.swaps, criterion, norm)
+    return Scene(title, u, start, (found.mesh,), found.history, found.swaps, criterion, norm)
 
 
 SWAPS = Exploration(
@@ -98,7 +98,7 @@ def _passes(mesh, u, percentage, refine_by, mark, split):
         return (mesh,)
     film = []
     for _ in range(PASSES):
-        mesh = refined(mesh, u, refine_by, percentage / 100, mark, split).mesh
+        mesh = refined(mesh, u, refine_by, fraction=percentage / 100, mark=mark, split=split).mesh
         if film and mesh.n_nodes > MOST_NODES:
             break
         film.append(mesh)
@@ -197,7 +197,7 @@ def _movement(function, nodes, springs):
     constants = DataSprings(u) if springs != EQUAL else None
     film, movement = [], np.inf
     while movement and len(film) < MOST_SWEEPS:
-        moved = smoothed(film[-1] if film else start, constants, sweeps=1, sliding=springs == SLIDING)
+        moved = smoothed(film[-1] if film else start, constants, max_sweeps=1, sliding=springs == SLIDING)
         film.append(moved.mesh)
         movement = moved.movement
     return Scene(f"{function} on {nodes} nodes, springs {springs}", u, start, tuple(film))
@@ -227,7 +227,7 @@ def _approximation(function, nodes):
         f"{function} by {nodes} nodes, beside a lattice of {side} × {side}",
         u,
         start,
-        (approximate(u, nodes).mesh,),
+        (approximate(u, nodes=nodes).mesh,),
     )
 
 

@@ -15,7 +15,7 @@ KINK = (0, 3)  # both coordinates, from one side of the rectangle to the other
 def combining_cycle():
     """The meshes of the cycle: shaded the patch that acts next, in colour the edge that the last one made."""
     meshes, found = _meshes()
-    costs, acting = [found.indicator, *found.steps["indicator"]], found.steps["node"]
+    costs, acting = [found.indicator, *found.history["indicator"]], found.history["node"]
     with plotting.style():
         figure, axes = plotting.look.pyplot().subplots(
             1, 3, figsize=(plotting.WIDTH, HEIGHT), layout="constrained"
@@ -32,8 +32,10 @@ def combining_cycle():
 def _meshes():
     """The meshes along the cycle, and the run."""
     found, start = combining.cycle(), delaunay(combining.CYCLE_NODES)
-    share = found.steps["gain"].mean() / found.indicator  # which the first step gains and the second does not
-    first = combined(start, combining.ridge, "jnd", rim=False, sweeps=1, least_gain=share)
+    share = (
+        found.history["gain"].mean() / found.indicator
+    )  # which the first step gains and the second does not
+    first = combined(start, combining.ridge, "jnd", rim=False, max_sweeps=1, min_relative_gain=share)
     return [start, first.mesh, found.mesh], found
 
 

@@ -60,7 +60,7 @@ def split(mesh, chosen, how="red-green"):
 
     criterion = ml.criteria.Criterion("chosen", "element", cost)
     share = len(chosen) / mesh.n_elements
-    return ml.refined(mesh, np.zeros(mesh.n_nodes), criterion, share, split=how)
+    return ml.refined(mesh, np.zeros(mesh.n_nodes), criterion, fraction=share, split=how)
 
 
 def unclosed(mesh, refinement):

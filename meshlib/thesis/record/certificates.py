@@ -82,7 +82,9 @@ class Certificate:
         if independent:
             criterion = dataclasses.replace(criterion, code=-1)
         values = self.values if values is None else values
-        return swapped(self.mesh, values, criterion, self.norm, self.order, tolerance=self.tolerance)
+        return swapped(
+            self.mesh, values, criterion, norm=self.norm, order=self.order, min_gain=self.tolerance
+        )
 
     def faults(self):
         """What is wrong with it, each fault a sentence; an empty list if nothing is.

@@ -83,8 +83,10 @@ def orders(key, count=ORDERS):
 @cache
 def _orders(nodes, function, swap, count):
     mesh, u = problems.mesh(nodes), problems.functions[function]
-    found = local_optima(mesh, u, swap.criterion, swap.norm, count, SEED, swap.min_angle)
-    return OrderStudy(found, measured_all(map(found.mesh, range(len(found))), u))
+    found = local_optima(
+        mesh, u, swap.criterion, norm=swap.norm, orders=count, seed=SEED, min_angle=swap.min_angle
+    )
+    return OrderStudy(found, measured_all(map(found.mesh_of, range(len(found))), u))
 
 
 # -- noise ---------------------------------------------------------------------------------
@@ -169,8 +171,8 @@ def angle_limits(criterion, limits=ANGLES, count=ANGLE_ORDERS):
     mesh, function = problems.mesh("81"), problems.functions["SR3"]
     rows = []
     for limit in limits:
-        found = local_optima(mesh, function, criterion, 2, count, SEED, limit)
-        errors = measured_all(map(found.mesh, range(len(found))), function)[L2]
+        found = local_optima(mesh, function, criterion, norm=2, orders=count, seed=SEED, min_angle=limit)
+        errors = measured_all(map(found.mesh_of, range(len(found))), function)[L2]
         rows.append(errors[found.optimum])
     return np.array(rows)
 
@@ -207,7 +209,7 @@ def quartered(corners):
 def quadrature(number, points=(101, 200, 201)):
     """The error behind a printed one by several trapezium rules, settled, and whether it was searched."""
     result = _result_behind(number)
-    by_grid = [result.interpolant.l2_error(result.function, points=n) for n in points]
+    by_grid = [result.interpolant.l2_error(result.function, points=n, rule="trapezium") for n in points]
     return *by_grid, settled_error(result.mesh, result.function), EXPERIMENTS[number.experiment].certified
 
 
@@ -228,8 +230,8 @@ SMALL = tuple(key for key in SWAPS if EXPERIMENTS[key].nodes == "33")
 def best(function, criterion, norm):
     """The proved optimum on the 33 nodes; criterion ``"l2"`` is the L2 error itself."""
     u = problems.functions[function]
-    chosen = criteria.min_error(u, MIN_ERROR_DEGREE) if criterion == "l2" else criterion
-    return optimal(problems.mesh("33"), u, chosen, norm)
+    chosen = criteria.min_error(u, degree=MIN_ERROR_DEGREE) if criterion == "l2" else criterion
+    return optimal(problems.mesh("33"), u, chosen, norm=norm)
 
 
 @cache
@@ -247,7 +249,7 @@ def every_mesh():
     costs = np.array([np.linalg.norm(criteria.costs(m, function, "abn"), 1) for m in meshes])
     errors = measured_all(meshes, function)[L2]
     number = {mesh.elements.tobytes(): k for k, mesh in enumerate(meshes)}
-    found = local_optima(start, function, "abn", 1, ORDERS, SEED)
+    found = local_optima(start, function, "abn", norm=1, orders=ORDERS, seed=SEED)
     reached = np.zeros(len(meshes), dtype=np.int64)
     for elements, count in zip(found.elements, found.counts, strict=True):
         reached[number[elements.tobytes()]] += count

@@ -115,7 +115,7 @@ class Swap:
     min_angle: float = None
 
     def __call__(self, mesh, u, order):
-        return swapped(mesh, u, self.criterion, self.norm, order, self.min_angle)
+        return swapped(mesh, u, self.criterion, norm=self.norm, order=order, min_angle=self.min_angle)
 
     def prepared(self, mesh, values, tolerance=None):
         """The procedure on these values, for any edge order."""
@@ -134,7 +134,7 @@ def _swap(key, function, nodes, swap, recipe, **flags):
 def _refine(key, nodes, mark, recipe, ties="first"):
     def operate(mesh, u, order):
         order = order if mark == "edge" else None
-        return refined(mesh, u, "abn", SHARE, mark, "centroid", ties, order)
+        return refined(mesh, u, "abn", fraction=SHARE, mark=mark, split="centroid", ties=ties, order=order)
 
     return Experiment(key, nodes, operate, recipe, "SR1")
 

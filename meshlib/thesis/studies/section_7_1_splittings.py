@@ -94,7 +94,7 @@ def rounds(function, split, mark):
     meshes, marked, changed = [problems.mesh(START)], 0, 0
     errors = [_error(meshes[0], u)]
     while errors[-1] > AIM * errors[0] and meshes[-1].n_nodes < MOST_NODES:
-        done = refined(meshes[-1], u, criterion, SHARE, mark, split)
+        done = refined(meshes[-1], u, criterion, fraction=SHARE, mark=mark, split=split)
         marked += len(done.marked)
         changed += np.count_nonzero(np.bincount(done.parents, minlength=meshes[-1].n_elements) != 1)
         meshes.append(done.mesh)

@@ -110,12 +110,14 @@ def as_it_is(mesh, u):
 def only_swapped(mesh, u, min_angle=None):
     """Edges swapped by JND-L2, on the lattice in the order of the thesis."""
     order = problems.order("81") if mesh is problems.mesh("81") else None
-    return swapped(mesh, u, CRITERION, NORM, order, min_angle).mesh
+    return swapped(mesh, u, CRITERION, norm=NORM, order=order, min_angle=min_angle).mesh
 
 
 def only_moved(mesh, u, sliding=True, sweeps=MOST_SWEEPS, **constants):
     """Springs that follow the data, brought to rest if so many sweeps do it."""
-    return smoothed(mesh, DataSprings(u, **constants), sweeps=sweeps, tolerance=SETTLED, sliding=sliding).mesh
+    return smoothed(
+        mesh, DataSprings(u, **constants), max_sweeps=sweeps, min_movement=SETTLED, sliding=sliding
+    ).mesh
 
 
 def moved_and_swapped(mesh, u, sliding=True, min_angle=None, **constants):
@@ -202,7 +204,7 @@ def error_far_from_boundary(rise, run):
         mesh = refined(mesh, np.zeros(mesh.n_nodes), fraction=1).mesh
     u = Ramp(angle_of(rise, run), scale * STEEPNESS)
     found = Interpolant(only_swapped(mesh, u), u)
-    return float(found.l2_error(u, points=scale * (GRID_POINTS - 1) + 1) * np.sqrt(scale))
+    return float(found.l2_error(u, points=scale * (GRID_POINTS - 1) + 1, rule="trapezium") * np.sqrt(scale))
 
 
 # -- other constants, other orders of steps ---------------------------------------------------------

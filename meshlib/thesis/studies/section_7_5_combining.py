@@ -4,8 +4,9 @@ from functools import cache
 
 import numpy as np
 
-from ... import MeshError, combined, delaunay, problems
+from ... import combined, delaunay, problems
 from ...combination.combined import LEAST_GAIN
+from ...errors import NotReachedError
 from ...mesh.quality import angles
 from ..tables.numbered import grid, numbered
 from .appendix_b import settled_error
@@ -31,7 +32,7 @@ def cycle(rim=False):
     Examples
     --------
     >>> found = cycle()
-    >>> found.period, found.indicator, found.steps["indicator"].round(2).tolist()
+    >>> found.period, found.indicator, found.history["indicator"].round(2).tolist()
     (1, 9.5, [7.68, 9.5])
     """
     return combined(delaunay(CYCLE_NODES), ridge, "jnd", rim=rim)
@@ -42,7 +43,7 @@ def table_cycle():
     rows = []
     for rim, title in ((False, "left out"), (True, "counted")):
         found = cycle(rim)
-        before = [found.indicator, *found.steps["indicator"]]
+        before = [found.indicator, *found.history["indicator"]]
         rows += [
             (
                 title * (k == 0),
@@ -51,7 +52,7 @@ def table_cycle():
                 f"{before[k]:.2f}",
                 f"{step['indicator']:.2f}",
             )
-            for k, step in enumerate(found.steps)
+            for k, step in enumerate(found.history)
         ]
     head = ("Rim", "Step", "Gain of the patch", "$J$ of the mesh before", "after")
     caption = "Two steps on a mesh of six nodes, criterion JND-$L_2$."
@@ -76,7 +77,7 @@ def adapted(function, name="combined", limit=LIMIT, least_gain=LEAST_GAIN):
     Combination
     """
     u = problems.functions[function]
-    return combined(problems.mesh(START), u, ways=WAYS[name], min_angle=limit, least_gain=least_gain)
+    return combined(problems.mesh(START), u, ways=WAYS[name], min_angle=limit, min_relative_gain=least_gain)
 
 
 def in_turn(function):
@@ -88,7 +89,7 @@ def in_turn(function):
             mesh = combined(mesh, u, ways=way, min_angle=LIMIT).mesh
         if mesh.equals(before):
             return mesh
-    raise MeshError("turns", f"no end after {MOST_TURNS} turns")
+    raise NotReachedError("turns", f"no end after {MOST_TURNS} turns")
 
 
 def table_errors():
@@ -127,7 +128,7 @@ def table_gains(function="SR1"):
     for power in POWERS:
         found = adapted(function, limit=None, least_gain=10.0**-power)
         error = f"{settled_error(found.mesh, u):.5f}"
-        rows.append((f"$10^{{-{power}}}$", len(found.steps), found.sweeps, error))
+        rows.append((f"$10^{{-{power}}}$", len(found.history), found.sweeps, error))
     head = ("Least gain $\\delta/J_0$", "Steps", "Sweeps", "$L_2$ error")
     caption = (
         f"The combined strategy for {function}, without a limit on angles, by the gain that a step must have."

@@ -104,7 +104,7 @@ def limit(name):
 
 def error(mesh, function):
     """L2 error by a quadrature that is not the one of `approximate`."""
-    return Interpolant(mesh, function).l2_error(function, "exact", degree=DEGREE)
+    return Interpolant(mesh, function).l2_error(function, rule="exact", degree=DEGREE)
 
 
 def efficiency(mesh, function, bound):
@@ -137,7 +137,7 @@ def efficiency(mesh, function, bound):
 @cache
 def made(name, nodes=SHOWN, min_angle=None):
     """The approximation of one of the functions; made once in a process."""
-    return approximate((FUNCTIONS | DIRECTED)[name], nodes, min_angle=min_angle)
+    return approximate((FUNCTIONS | DIRECTED)[name], nodes=nodes, min_angle=min_angle)
 
 
 def lattice(nodes):
@@ -242,7 +242,7 @@ def terrain():
     with get_sample_data(TERRAIN) as data:
         heights = data["elevation"][::-1].astype(float)
     rows, columns = heights.shape
-    found = approximate(heights, TERRAIN_NODES, domain=((0, 0), (columns - 1, rows - 1)))
+    found = approximate(heights, nodes=TERRAIN_NODES, domain=((0, 0), (columns - 1, rows - 1)))
     side = round(TERRAIN_NODES**0.5)
     x, y = (np.linspace(0, n - 1, side).round().astype(int) for n in (columns, rows))
     nodes = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
@@ -278,4 +278,4 @@ def square_with_hole():
 @cache
 def around_hole():
     """The stream function approximated on the square with the hole."""
-    return approximate(stream, HOLE_NODES, domain=square_with_hole())
+    return approximate(stream, nodes=HOLE_NODES, domain=square_with_hole())

@@ -122,7 +122,7 @@ def optimum():
         result, study = run(key), studies.orders(key)
         swap, function = result.experiment.operate, result.experiment.function
         cost = np.linalg.norm(criteria.costs(result.mesh, result.function, swap.criterion), swap.norm)
-        best = studies.best(function, swap.criterion, swap.norm).cost
+        best = studies.best(function, swap.criterion, swap.norm).cost_after
         error = l2_error(studies.best(function, "l2", 2).mesh, problems.functions[function])
         least = study.optima.costs.min()
         values = (f"{value:.4f}" for value in (cost, least, best))
