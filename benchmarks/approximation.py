@@ -178,18 +178,18 @@ def floors_for(nodes, before):
 def by_tolerance(name):
     """Nodes that a tolerance takes, and the least number that bisection over the nodes finds."""
     u = FUNCTIONS[name]
-    tolerance = approximate(u, TOLERANCE_NODES).error
+    tolerance = approximate(u, nodes=TOLERANCE_NODES).error
     found, seconds = timed(approximate, u, tolerance=tolerance)
     low, high = TOLERANCE_NODES // 2, TOLERANCE_NODES
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (low, middle) if approximate(u, middle).error <= tolerance else (middle, high)
+        low, high = (low, middle) if approximate(u, nodes=middle).error <= tolerance else (middle, high)
     yield line(name, "tolerance", TOLERANCE_NODES, found.mesh, seconds, tolerance=tolerance, bisected=high)
 
 
 def measured(name, sizes):
     """All lines of one function."""
-    approximate(FUNCTIONS[name], WARM)
+    approximate(FUNCTIONS[name], nodes=WARM)
     lines = list(by_tolerance(name)) if TOLERANCE_NODES in sizes else []
     for nodes in sizes:
         before = [row for row in lines if row["who"] == "mmg2d"]

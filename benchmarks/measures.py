@@ -22,7 +22,7 @@ def swapping(case):
     from scipy.spatial import Delaunay
 
     def ours(criterion, norm):
-        return lambda: ml.swapped(case.fresh(), case.values, criterion, norm, schedule="queue")
+        return lambda: ml.swapped(case.fresh(), case.values, criterion, norm=norm, schedule="queue")
 
     return (
         {name: ours(*arguments) for name, arguments in PROCEDURES.items()},
@@ -83,7 +83,9 @@ def refinement(case):
     criterion = ml.criteria.Criterion("marked", "element", lambda a, b, c: costs)
 
     def ours(split):
-        return lambda: ml.refined(case.fresh(), case.values, criterion, SHARE, mark="element", split=split)
+        return lambda: ml.refined(
+            case.fresh(), case.values, criterion, fraction=SHARE, mark="element", split=split
+        )
 
     nodes, elements = (np.ascontiguousarray(a.T) for a in (case.nodes, case.mesh.elements.astype(np.int64)))
     return (
@@ -116,12 +118,12 @@ def _vtk(case):
 
 def smoothing(case):
     """One sweep of node movement with equal springs."""
-    return {"one sweep": lambda: ml.smoothed(case.fresh(), sweeps=1)}, {}
+    return {"one sweep": lambda: ml.smoothed(case.fresh(), max_sweeps=1)}, {}
 
 
 def errors(case):
     """The L2 error, by quadrature on each element."""
-    return {"exact": lambda: ml.Interpolant(case.fresh(), case.values).l2_error(case.u, "exact")}, {}
+    return {"exact": lambda: ml.Interpolant(case.fresh(), case.values).l2_error(case.u, rule="exact")}, {}
 
 
 def validation(case):

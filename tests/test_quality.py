@@ -21,7 +21,7 @@ from meshlib import (
     uniformity,
     valence,
 )
-from meshlib.mesh.quality import angles
+from meshlib.mesh.quality import MEASURES, angles
 
 HEIGHT = np.sqrt(3) / 2
 
@@ -93,12 +93,17 @@ def test_mean_max_and_table(square):
         Mesh([[0, 0], [1, 0], [0.5, HEIGHT], [1.5, HEIGHT], [2, 0]], [[0, 1, 2], [1, 3, 2], [1, 4, 3]])
     )
     assert q.mean["maximum_angle"] == pytest.approx(60) == q.max["maximum_angle"]
-    assert list(q.mean) == list(q.max) == ["maximum_angle", "skewness", "aspect_ratio"]
+    assert q.min["minimum_angle"] == pytest.approx(60) and q.worst["aspect_ratio"] == pytest.approx(1)
+    assert q.max["longest_edge"] == pytest.approx(1) == q.min["shortest_edge"]
+    assert list(q.mean) == list(q.max) == list(q.min) == list(q.worst) == list(MEASURES)
     assert str(quality(square)).splitlines() == [
-        "Measure             mean       max",
-        "Maximum angle    90.0000   90.0000",
-        "Skewness          0.3491    0.3491",
-        "Aspect ratio      0.8660    0.8660",
+        "Measure              mean      worst",
+        "Minimum angle          45         45",
+        "Maximum angle          90         90",
+        "Skewness           0.3491     0.3491",
+        "Aspect ratio        0.866      0.866",
+        "Shortest edge           1          1",
+        "Longest edge        1.414      1.414",
     ]
     with pytest.raises(dataclasses.FrozenInstanceError):
         q.skewness = None
@@ -147,7 +152,7 @@ def test_centroids_split_into_equal_parts():
 def test_the_longest_edge_halves():
     """Of equal right angled elements one pair is bisected at a time: ratios 1 and 2."""
     mesh = delaunay(lattice(6, 6))
-    new = refined(mesh, lambda x, y: x**2, fraction=0.1, split="longest-edge").mesh
+    new = refined(mesh, lambda x, y: x**2, "abn", fraction=0.1, split="longest-edge").mesh
     assert sorted(set(uniformity(new).round(9))) == [1.0, 2.0]
 
 

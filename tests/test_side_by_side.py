@@ -60,7 +60,7 @@ def test_green_closure_halves_some_angles_once(mark):
     assert found[-1] == pytest.approx(found[len(found) // 2]) and found[-1] > 7
 
 
-@pytest.mark.parametrize("mark", ("edge", "density"))
+@pytest.mark.parametrize("mark", ["edge", "density"])
 def test_midpoint_insertion_cuts_no_edge(mark):
     """So the error on the edges of the start stays, and angles shrink in geometric progression."""
     found = rounds("SR3", "centroid", mark)
@@ -188,7 +188,7 @@ def test_in_turn_ends_where_neither_way_gains():
     mesh = combining.in_turn("SR2")
     assert np.degrees(angles(mesh.corners).min()) > 9.99
     for way in ("swap", "move"):
-        assert not len(combined(mesh, problems.SR2, ways=way, min_angle=combining.LIMIT).steps)
+        assert not len(combined(mesh, problems.SR2, ways=way, min_angle=combining.LIMIT).history)
 
 
 # -- figures --------------------------------------------------------------------------------------

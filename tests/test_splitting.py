@@ -93,7 +93,7 @@ def closed(leaves, middle):
 def test_red_green_is_what_the_reference_makes(problem, fractions, seed):
     mesh, rng = problem[0], np.random.default_rng(seed)
     for fraction in fractions:
-        result = refined(mesh, rng.standard_normal(mesh.n_nodes), fraction=fraction)
+        result = refined(mesh, rng.standard_normal(mesh.n_nodes), "abn", fraction=fraction)
         elements, parents, green, ends = red_green(mesh, result.marked)
         assert result.mesh.elements.tolist() == elements and result.parents.tolist() == parents
         assert result.mesh.green.tolist() == green
@@ -171,7 +171,15 @@ def test_marking_is_what_the_reference_marks(problem, mark, ties, target, noise,
         costs[mesh.boundary] = 0
     inner = costs[~mesh.boundary] if mark == "edge" else costs
     order, criterion = rng.permutation(size), criteria.Criterion("given", mark, lambda *_: inner)
-    found = marked(mesh, np.zeros(mesh.n_nodes), criterion, target / mesh.n_elements, mark, ties, order)
+    found = marked(
+        mesh,
+        np.zeros(mesh.n_nodes),
+        criterion,
+        fraction=target / mesh.n_elements,
+        mark=mark,
+        ties=ties,
+        order=order,
+    )
     assert found.tolist() == chosen_by(mesh, costs.tolist(), mark, ties, target, order.tolist())
 
 
@@ -179,7 +187,7 @@ def test_marking_is_what_the_reference_marks(problem, mark, ties, target, noise,
 def test_all_equal_costs_are_marked_in_the_given_order(mark):
     mesh = problems.mesh("81")
     flat = criteria.Criterion("flat", "element", lambda a, b, c: np.ones(128))
-    first = marked(mesh, np.zeros(81), flat, 1 / 128, mark)
+    first = marked(mesh, np.zeros(81), flat, fraction=1 / 128, mark=mark)
     assert 0 in (first if mark in ("element", "density") else mesh.elements[first])
 
 

@@ -11,4 +11,4 @@ from .chapter4 import *  # noqa: F403
 from .chapter5 import *  # noqa: F403
 from .chapter6 import *  # noqa: F403
 
-__all__ = [*chapter2.__all__, *chapter3.__all__, *chapter4.__all__, *chapter5.__all__, *chapter6.__all__]
+__all__ = chapter2.__all__ + chapter3.__all__ + chapter4.__all__ + chapter5.__all__ + chapter6.__all__

@@ -113,7 +113,7 @@ def figure_3_4() -> Figure:
     mesh = hexagon(2, JITTER)
     centre = np.hypot(*mesh.nodes.T).argmin()
     worst = ml.criteria.Criterion("one node", "node", lambda u_h: np.eye(mesh.n_nodes)[centre])
-    refinement = ml.refined(mesh, np.zeros(mesh.n_nodes), worst, 1 / mesh.n_elements, mark="node")
+    refinement = ml.refined(mesh, np.zeros(mesh.n_nodes), worst, fraction=1 / mesh.n_elements, mark="node")
     figure, axes = panels(2, size=PANEL, labels=True)
     plot_mesh(axes[0], mesh, elements=refinement.marked)
     plotting.mark_nodes(axes[0], mesh, [centre], RED)

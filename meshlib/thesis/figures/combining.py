@@ -24,7 +24,7 @@ KINK = (0, 3)  # x and y at the ends of the kink, from one side of the rectangle
 def combining_cycle() -> Figure:
     """The meshes of the cycle; shaded is the patch that acts next, coloured the edge that was made last."""
     meshes, found = _meshes()
-    costs, acting = [found.indicator, *found.steps["indicator"]], found.steps["node"]
+    costs, acting = [found.indicator, *found.history["indicator"]], found.history["node"]
     with plotting.style():
         size = plotting.WIDTH, HEIGHT
         figure, axes = plotting.look.pyplot().subplots(1, 3, figsize=size, layout="constrained")
@@ -40,8 +40,8 @@ def combining_cycle() -> Figure:
 def _meshes() -> tuple[list[Mesh], Combination]:
     """The meshes of the cycle, and the run."""
     found, start = combining.cycle(), delaunay(combining.CYCLE_NODES)
-    share = found.steps["gain"].mean() / found.indicator  # the first step gains it, the second does not
-    first = combined(start, combining.ridge, "jnd", rim=False, sweeps=1, least_gain=share)
+    share = found.history["gain"].mean() / found.indicator  # the first step gains it, the second does not
+    first = combined(start, combining.ridge, "jnd", rim=False, max_sweeps=1, min_relative_gain=share)
     return [start, first.mesh, found.mesh], found
 
 

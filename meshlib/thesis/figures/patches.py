@@ -63,7 +63,7 @@ def split(mesh: ml.Mesh, chosen: ArrayLike, how: str = "red-green") -> Refinemen
 
     criterion = ml.criteria.Criterion("chosen", "element", cost)
     share = len(marked) / mesh.n_elements
-    return ml.refined(mesh, np.zeros(mesh.n_nodes), criterion, share, split=how)
+    return ml.refined(mesh, np.zeros(mesh.n_nodes), criterion, fraction=share, split=how)
 
 
 def unclosed(mesh: ml.Mesh, refinement: Refinement) -> ml.Mesh:

@@ -86,7 +86,9 @@ class Certificate:
         if independent:
             criterion = dataclasses.replace(criterion, code=-1)
         values = self.values if values is None else values
-        return swapped(self.mesh, values, criterion, self.norm, self.order, tolerance=self.tolerance)
+        return swapped(
+            self.mesh, values, criterion, norm=self.norm, order=self.order, min_gain=self.tolerance
+        )
 
     def faults(self) -> list[str]:
         """What is wrong with the certificate, a sentence for each fault; an empty list if it holds.

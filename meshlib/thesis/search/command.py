@@ -20,7 +20,7 @@ from pathlib import Path
 
 from ...checks import choice, whole
 from ...checks import workers as checked_workers
-from ...errors import MeshError
+from ...errors import InvalidInputError, MeshError
 from ...optima.many_orders import shared
 from ..record import printed
 from .walk import HUNTS, Target, as_certificate, task, way
@@ -111,7 +111,9 @@ def key_of(table: str, column: str | None = None) -> str:
     if column is None and len(columns) == 1:
         return next(iter(columns.values()))
     if column is None:
-        raise MeshError("column", f"table {table} has several; name one of {', '.join(map(repr, columns))}")
+        raise InvalidInputError(
+            "column", f"table {table} has several; name one of {', '.join(map(repr, columns))}"
+        )
     return columns[choice(column, tuple(columns), "column")]
 
 

@@ -93,8 +93,10 @@ def orders(key: str, count: int = ORDERS) -> OrderStudy:
 @cache
 def _orders(nodes: str, function: str, swap: Swap, count: int) -> OrderStudy:
     mesh, u = problems.mesh(nodes), problems.functions[function]
-    found = local_optima(mesh, u, swap.criterion, swap.norm, count, SEED, swap.min_angle)
-    return OrderStudy(found, measured_all(map(found.mesh, range(len(found))), u))
+    found = local_optima(
+        mesh, u, swap.criterion, norm=swap.norm, orders=count, seed=SEED, min_angle=swap.min_angle
+    )
+    return OrderStudy(found, measured_all(map(found.mesh_of, range(len(found))), u))
 
 
 # -- noise ---------------------------------------------------------------------------------
@@ -185,8 +187,8 @@ def angle_limits(criterion: str, limits: Iterable[int] = ANGLES, count: int = AN
     mesh, function = problems.mesh("81"), problems.functions["SR3"]
     rows = []
     for limit in limits:
-        found = local_optima(mesh, function, criterion, 2, count, SEED, limit)
-        errors = measured_all(map(found.mesh, range(len(found))), function)[L2]
+        found = local_optima(mesh, function, criterion, norm=2, orders=count, seed=SEED, min_angle=limit)
+        errors = measured_all(map(found.mesh_of, range(len(found))), function)[L2]
         rows.append(errors[found.optimum])
     return np.array(rows)
 
@@ -236,7 +238,7 @@ def quadrature(
     """
     result = _result_behind(number)
     u = problems.functions[result.experiment.function]
-    by_grid = [result.interpolant.l2_error(u, points=n) for n in points]
+    by_grid = [result.interpolant.l2_error(u, points=n, rule="trapezium") for n in points]
     settled = settled_error(result.mesh, u)
     return by_grid, settled, EXPERIMENTS[number.experiment].certified
 
@@ -258,8 +260,8 @@ SMALL = tuple(key for key in SWAPS if EXPERIMENTS[key].nodes == "33")
 def best(function: str, criterion: str, norm: int) -> Optimal:
     """The proved optimum on the 33 nodes; the criterion ``"l2"`` is the L2 error itself."""
     u = problems.functions[function]
-    chosen = criteria.min_error(u, MIN_ERROR_DEGREE) if criterion == "l2" else criterion
-    return optimal(problems.mesh("33"), u, chosen, norm)
+    chosen = criteria.min_error(u, degree=MIN_ERROR_DEGREE) if criterion == "l2" else criterion
+    return optimal(problems.mesh("33"), u, chosen, norm=norm)
 
 
 @cache
@@ -278,7 +280,7 @@ def every_mesh() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     remembered = Remembered(function)
     errors = np.array([l2_error(mesh, remembered) for mesh in meshes])
     number = {mesh.elements.tobytes(): k for k, mesh in enumerate(meshes)}
-    found = local_optima(start, function, "abn", 1, ORDERS, SEED)
+    found = local_optima(start, function, "abn", norm=1, orders=ORDERS, seed=SEED)
     reached = np.zeros(len(meshes), dtype=np.int64)
     for elements, count in zip(found.elements, found.counts, strict=True):
         reached[number[elements.tobytes()]] += count

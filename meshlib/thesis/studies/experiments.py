@@ -91,12 +91,12 @@ class Result:
     @cached_property
     def interpolant(self) -> Interpolant:
         """Interpolant of u on the mesh."""
-        return Interpolant(self.mesh, self.function)
+        return Interpolant(self.mesh, problems.functions[self.experiment.function])
 
     @cached_property
     def start_interpolant(self) -> Interpolant:
         """Interpolant of u on the start mesh."""
-        return Interpolant(self.start, self.function)
+        return Interpolant(self.start, problems.functions[self.experiment.function])
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,8 @@ class Swap:
     min_angle: float | None = None
 
     def __call__(self, mesh: Mesh, u: Function, order: np.ndarray) -> Swapping:
-        return swapped(mesh, u, self.criterion, self.norm, order, self.min_angle)
+        """Swap edges in the given order."""
+        return swapped(mesh, u, self.criterion, norm=self.norm, order=order, min_angle=self.min_angle)
 
     def prepared(self, mesh: Mesh, values: np.ndarray, tolerance: float | None = None) -> Procedure:
         """The procedure on these nodal values, which can be run with any edge order."""
@@ -138,7 +139,8 @@ def _swap(key: str, function: str, nodes: str, swap: Swap, recipe: str, **flags:
 
 def _refine(key: str, nodes: str, mark: str, recipe: str, ties: str = "first") -> Experiment:
     def operate(mesh: Mesh, u: Function, order: np.ndarray) -> Refinement:
-        return refined(mesh, u, "abn", SHARE, mark, "centroid", ties, order if mark == "edge" else None)
+        by_order = order if mark == "edge" else None
+        return refined(mesh, u, "abn", fraction=SHARE, mark=mark, split="centroid", ties=ties, order=by_order)
 
     return Experiment(key, nodes, operate, recipe, "SR1")
 

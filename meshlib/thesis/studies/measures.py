@@ -12,6 +12,7 @@ Measures: TypeAlias = dict[tuple[str, str], float]  # (measure, statistic) -> va
 
 GRID_POINTS = 101  # a side; the tables match this grid, not the 200 x 200 of section 4.5.1
 L2 = "l2_error", ""  # measure and statistic
+PRINTED = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
 
 
 def measured(mesh: Mesh, function: Function | None = None) -> Measures:
@@ -35,16 +36,36 @@ def measured(mesh: Mesh, function: Function | None = None) -> Measures:
     (90.0, 0.004325)
     """
     shape, found = quality(mesh), {}
-    for name, mean in shape.mean.items():
-        found[name, "mean"], found[name, "max"] = mean, shape.max[name]
+    mean, largest = shape.mean, shape.max
+    for name in PRINTED:
+        found[name, "mean"], found[name, "max"] = mean[name], largest[name]
     if function:
         found[L2] = l2_error(mesh, function)
     return found
 
 
+def shapes(mesh: Mesh) -> str:
+    """Mean and maximum of the three measures of shape that the thesis prints, as a text.
+
+    Examples
+    --------
+    >>> from meshlib import problems
+    >>> print(shapes(problems.mesh("81")))
+    Measure             mean       max
+    Maximum angle    90.0000   90.0000
+    Skewness          0.3491    0.3491
+    Aspect ratio      0.8660    0.8660
+    """
+    found = measured(mesh)
+    lines = [f"{'Measure':<14} {'mean':>9} {'max':>9}"]
+    for name, title in PRINTED.items():
+        lines.append(f"{title:<14} {found[name, 'mean']:9.4f} {found[name, 'max']:9.4f}")
+    return "\n".join(lines)
+
+
 def l2_error(mesh: Mesh, function: Function) -> float:
     """The L2 error by the trapezium rule that the tables match."""
-    return Interpolant(mesh, function).l2_error(function, points=GRID_POINTS)
+    return Interpolant(mesh, function).l2_error(function, points=GRID_POINTS, rule="trapezium")
 
 
 def measured_all(meshes: Iterable[Mesh], function: Function | None) -> dict[tuple[str, str], np.ndarray]:
@@ -62,6 +83,7 @@ class Remembered:
         self._known: dict[tuple, np.ndarray] = {}
 
     def __call__(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Values at points."""
         key = x.tobytes(), y.tobytes(), x.shape
         if key not in self._known:
             self._known[key] = self.function(x, y)

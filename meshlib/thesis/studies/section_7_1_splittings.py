@@ -93,7 +93,7 @@ def rounds(function: str, split: str, mark: str) -> Rounds:
     meshes, marked, changed = [problems.mesh(START)], 0, 0
     errors = [_error(meshes[0], u)]
     while errors[-1] > AIM * errors[0] and meshes[-1].n_nodes < MOST_NODES:
-        done = refined(meshes[-1], u, criterion, SHARE, mark, split)
+        done = refined(meshes[-1], u, criterion, fraction=SHARE, mark=mark, split=split)
         marked += len(done.marked)
         parts = np.bincount(done.parents, minlength=meshes[-1].n_elements)
         changed += int(np.count_nonzero(parts != 1))

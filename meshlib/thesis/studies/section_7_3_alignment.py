@@ -53,6 +53,7 @@ class Ramp:
     steepness: float = STEEPNESS
 
     def __call__(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Values at points."""
         return self.profile(self.across(x, y))
 
     def across(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -114,14 +115,15 @@ def as_it_is(mesh: Mesh, u: Function) -> Mesh:
 def only_swapped(mesh: Mesh, u: Function, min_angle: float | None = None) -> Mesh:
     """Edges swapped by JND-L2; on the lattice without jitter in its natural order."""
     order = problems.order("81") if mesh is problems.mesh("81") else None
-    return swapped(mesh, u, CRITERION, NORM, order, min_angle).mesh
+    return swapped(mesh, u, CRITERION, norm=NORM, order=order, min_angle=min_angle).mesh
 
 
 def only_moved(
     mesh: Mesh, u: Function, sliding: bool = True, sweeps: int = MOST_SWEEPS, **constants: float
 ) -> Mesh:
     """Nodes moved by springs that follow the data, to rest or for the given number of sweeps."""
-    return smoothed(mesh, DataSprings(u, **constants), sweeps=sweeps, tolerance=SETTLED, sliding=sliding).mesh
+    springs = DataSprings(u, **constants)
+    return smoothed(mesh, springs, max_sweeps=sweeps, min_movement=SETTLED, sliding=sliding).mesh
 
 
 def moved_and_swapped(
@@ -217,7 +219,7 @@ def error_far_from_boundary(rise: int, run: int) -> float:
         mesh = refined(mesh, np.zeros(mesh.n_nodes), fraction=1).mesh
     u = Ramp(angle_of(rise, run), scale * STEEPNESS)
     found = Interpolant(only_swapped(mesh, u), u)
-    return float(found.l2_error(u, points=scale * (GRID_POINTS - 1) + 1) * np.sqrt(scale))
+    return float(found.l2_error(u, points=scale * (GRID_POINTS - 1) + 1, rule="trapezium") * np.sqrt(scale))
 
 
 # -- other constants, other orders of steps ---------------------------------------------------------

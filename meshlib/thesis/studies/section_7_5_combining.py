@@ -4,8 +4,9 @@ from functools import cache
 
 import numpy as np
 
-from ... import Mesh, MeshError, combined, delaunay, problems
+from ... import Mesh, combined, delaunay, problems
 from ...combination.combined import LEAST_GAIN, Combination
+from ...errors import NotReachedError
 from ...mesh.quality import angles
 
 FUNCTIONS = ("SR1", "SR2", "SR3", "DD1")
@@ -31,7 +32,7 @@ def cycle(rim: bool = False) -> Combination:
     Examples
     --------
     >>> found = cycle()
-    >>> found.period, found.indicator, found.steps["indicator"].round(2).tolist()
+    >>> found.period, found.indicator, found.history["indicator"].round(2).tolist()
     (1, 9.5, [7.68, 9.5])
     """
     return combined(delaunay(CYCLE_NODES), ridge, "jnd", rim=rim)
@@ -58,7 +59,7 @@ def adapted(
     Combination
     """
     u = problems.functions[function]
-    return combined(problems.mesh(START), u, ways=WAYS[name], min_angle=limit, least_gain=least_gain)
+    return combined(problems.mesh(START), u, ways=WAYS[name], min_angle=limit, min_relative_gain=least_gain)
 
 
 def in_turn(function: str) -> Mesh:
@@ -70,7 +71,7 @@ def in_turn(function: str) -> Mesh:
             mesh = combined(mesh, u, ways=way, min_angle=LIMIT).mesh
         if mesh.equals(before):
             return mesh
-    raise MeshError("turns", f"no end after {MOST_TURNS} turns")
+    raise NotReachedError("turns", f"no end after {MOST_TURNS} turns")
 
 
 def compared(function: str) -> tuple[Mesh, ...]:

@@ -63,7 +63,7 @@ class Distances:
 
 def criterion_of(name: str, function: Function) -> criteria.Criterion:
     """The criterion with a name; the L2 error is that of the function."""
-    return criteria.min_error(function, DEGREE) if name == L2_ERROR else criteria.get(name)
+    return criteria.min_error(function, degree=DEGREE) if name == L2_ERROR else criteria.get(name)
 
 
 @cache
@@ -129,7 +129,7 @@ def listed(
     u = problems.functions[function]
     criterion = criterion_of(name, u)
     costs = costs_of_parts(start, every, u(*start.nodes.T), criterion, norm)
-    return costs, annealed(start, u, criterion, norm, seed, LEVELS, TRIES)
+    return costs, annealed(start, u, criterion, norm=norm, seed=seed, levels=LEVELS, tries=TRIES)
 
 
 @cache
@@ -189,12 +189,12 @@ class Large:
 @cache
 def annealing(nodes: str, function: str, name: str, norm: int, seed: int) -> Annealing:
     """Annealing on a start mesh of the thesis."""
-    return annealed(problems.mesh(nodes), problems.functions[function], name, norm, seed)
+    return annealed(problems.mesh(nodes), problems.functions[function], name, norm=norm, seed=seed)
 
 
 def in_natural_order(nodes: str, function: str, name: str, norm: int) -> Mesh:
     """The mesh that swapping in natural order leads to, where annealing starts."""
-    return swapped(problems.mesh(nodes), problems.functions[function], name, norm).mesh
+    return swapped(problems.mesh(nodes), problems.functions[function], name, norm=norm).mesh
 
 
 @cache
@@ -203,12 +203,12 @@ def large(nodes: str, function: str, name: str, norm: int) -> Large:
     mesh, u = problems.mesh(nodes), problems.functions[function]
     runs = [annealing(nodes, function, name, norm, seed) for seed in SEEDS]
     least = min(runs, key=lambda run: run.cost_after)
-    proved, many = optimal(mesh, u, name, norm), local_optima(mesh, u, name, norm, ORDERS)
+    proved, many = optimal(mesh, u, name, norm=norm), local_optima(mesh, u, name, norm=norm, orders=ORDERS)
     meshes = in_natural_order(nodes, function, name, norm), least.mesh, proved.mesh
     return Large(
         least.cost_swapped,
         many.costs.min(),
-        proved.cost,
+        proved.cost_after,
         np.array([run.cost_after for run in runs]),
         *(l2_error(found, u) for found in meshes),
     )

@@ -108,7 +108,7 @@ def limit(name: str) -> float:
 
 def error(mesh: Mesh, function: Function) -> float:
     """L2 error by a quadrature other than that of `approximate`."""
-    return Interpolant(mesh, function).l2_error(function, "exact", degree=DEGREE)
+    return Interpolant(mesh, function).l2_error(function, rule="exact", degree=DEGREE)
 
 
 def efficiency(mesh: Mesh, function: Function, bound: float) -> float:
@@ -141,7 +141,7 @@ def efficiency(mesh: Mesh, function: Function, bound: float) -> float:
 @cache
 def made(name: str, nodes: int = SHOWN, min_angle: float | None = None) -> Approximation:
     """The approximation of one of the functions; computed once in a process."""
-    return approximate((FUNCTIONS | DIRECTED)[name], nodes, min_angle=min_angle)
+    return approximate((FUNCTIONS | DIRECTED)[name], nodes=nodes, min_angle=min_angle)
 
 
 def lattice(nodes: int) -> Mesh:
@@ -254,7 +254,7 @@ def terrain() -> Terrain:
     with np.load(get_sample_data(TERRAIN, asfileobj=False)) as data:
         heights = data["elevation"][::-1].astype(float)
     rows, columns = heights.shape
-    found = approximate(heights, TERRAIN_NODES, domain=((0, 0), (columns - 1, rows - 1)))
+    found = approximate(heights, nodes=TERRAIN_NODES, domain=((0, 0), (columns - 1, rows - 1)))
     side = round(TERRAIN_NODES**0.5)
     x, y = (np.linspace(0, n - 1, side).round().astype(int) for n in (columns, rows))
     nodes = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
@@ -290,4 +290,4 @@ def square_with_hole() -> Mesh:
 @cache
 def around_hole() -> Approximation:
     """The stream function approximated on the square with the hole."""
-    return approximate(stream, HOLE_NODES, domain=square_with_hole())
+    return approximate(stream, nodes=HOLE_NODES, domain=square_with_hole())

@@ -93,13 +93,14 @@ def _optimum(key: str) -> Iterator[tuple]:
     """Two rows, the cost by the criterion and the L2 error."""
     result, study = run(key), studies.orders(key)
     swap, function = result.experiment.operate, result.experiment.function
-    costs = criteria.costs(result.mesh, result.function, swap.criterion)
+    u = problems.functions[function]
+    costs = criteria.costs(result.mesh, u, swap.criterion)
     cost = float(np.linalg.norm(costs, swap.norm))
-    best = studies.best(function, swap.criterion, swap.norm).cost
+    best = studies.best(function, swap.criterion, swap.norm).cost_after
     cells = (f"{value:.4f}" for value in (cost, study.optima.costs.min(), best))
     yield studies.title(key), swap.title, *cells, _excess(cost, best)
     error = result.measures[L2]
-    least = l2_error(studies.best(function, "l2", 2).mesh, problems.functions[function])
+    least = l2_error(studies.best(function, "l2", 2).mesh, u)
     cells = (f"{value:.6f}" for value in (error, study.measures[L2].min(), least))
     yield "", "$L_2$ error", *cells, _excess(error, least)
 

@@ -24,8 +24,8 @@ def cycle() -> Markdown:
 
 def _cycle(rim: bool, title: str) -> Iterator[tuple]:
     found = combining.cycle(rim)
-    before = [found.indicator, *found.steps["indicator"]]
-    for k, step in enumerate(found.steps):
+    before = [found.indicator, *found.history["indicator"]]
+    for k, step in enumerate(found.history):
         costs = (f"{cost:.2f}" for cost in (step["gain"], before[k], step["indicator"]))
         yield title * (k == 0), f"{step['way']} around node {step['node']}", *costs
 
@@ -61,4 +61,4 @@ def gains(function: str = "SR1") -> Markdown:
 def _gains(function: str, power: int) -> tuple:
     found = combining.adapted(function, limit=None, least_gain=10.0**-power)
     error = settled_error(found.mesh, problems.functions[function])
-    return len(found.steps), found.sweeps, f"{error:.5f}"
+    return len(found.history), found.sweeps, f"{error:.5f}"
