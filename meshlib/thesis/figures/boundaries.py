@@ -26,7 +26,7 @@ LOOKS = {  # colour and marker of a density
     "parameter": (plotting.PALETTE["black"], "^"),
 }
 LINES = {"ellipse": "-", "trefoil": "--"}
-LEFT_OUT = "ellipse", "parameter"  # of an ellipse the best polygons are those of its parameter
+LEFT_OUT = "ellipse", "parameter"  # the best polygons of an ellipse are those of its parameter
 
 
 def boundaries_compared() -> Figure:

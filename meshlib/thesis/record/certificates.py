@@ -97,7 +97,7 @@ class Certificate:
         by both procedures, and with every nodal value moved by its last bit.
         """
         found = []
-        if not all(abs(v) < LARGEST_PERTURBATION for v in self.perturbation.values()):  # nor NaN
+        if not all(abs(v) < LARGEST_PERTURBATION for v in self.perturbation.values()):  # also if one is NaN
             found.append(f"a perturbation reaches {LARGEST_PERTURBATION:g}")
         if not self.mesh.equals(problems.mesh(self.start)):
             return [*found, f"the start mesh is not that of {self.start!r}"]

@@ -1,7 +1,7 @@
 """Where certificates are looked for, and the walk towards the printed numbers of a column.
 
-A step of the walk takes a random disc in the domain and draws either the places in the order
-of all edges inside, or the perturbations of all nodes inside.
+A step of the walk takes a random disc in the domain and draws either new places in the order for
+all edges inside, or new perturbations for all nodes inside.
 """
 
 from collections.abc import Callable, Iterable

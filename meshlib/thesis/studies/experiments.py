@@ -19,7 +19,7 @@ from ...swapping.swapped import Swapping, prepared
 from ..record import certificates
 from .measures import Function, Measures, measured
 
-SHARE = 0.2  # of the elements are refined
+SHARE = 0.2  # fraction of the elements that is marked
 SMALLEST_ANGLE = 8.0  # degrees, the limit of section 6.1
 NATURAL = "edges in natural order"
 

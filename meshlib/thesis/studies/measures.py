@@ -10,7 +10,7 @@ from ... import Interpolant, Mesh, quality
 Function: TypeAlias = Callable[..., np.ndarray]  # u(x, y), vectorised
 Measures: TypeAlias = dict[tuple[str, str], float]  # (measure, statistic) -> value
 
-GRID_POINTS = 101  # a side; the tables match this grid, not the 200 x 200 of section 4.5.1
+GRID_POINTS = 101  # points a side; the tables match this grid, not the 200 x 200 of section 4.5.1
 L2 = "l2_error", ""  # measure and statistic
 PRINTED = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
 
