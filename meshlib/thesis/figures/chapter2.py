@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 import meshlib as ml
 from meshlib.plotting import ACCENT, mark_nodes, number_nodes, panels, plot_mesh, style
 
@@ -15,14 +17,14 @@ if TYPE_CHECKING:
 __all__ = ["figure_2_1", "figure_2_2"]
 
 PANEL = 3.2  # inches
-KITE = [[0, 0], [4, 0.4], [2.1, -1.7], [1.7, 2.6]]
-CONVEX = [[0, 0.4], [2.4, 0], [3.2, 1.9], [0.7, 2.4]]
+KITE = np.array([[0, 0], [4, 0.4], [2.1, -1.7], [1.7, 2.6]])
+CONVEX = np.array([[0, 0.4], [2.4, 0], [3.2, 1.9], [0.7, 2.4]])
 
 
 @style()
 def figure_2_1() -> Figure:
     """A hanging node, 2 between 1 and 3 (Figure 2.1)."""
-    mesh = ml.Mesh(KITE, [[0, 1, 3], [0, 2, 1]])
+    mesh = ml.Mesh(KITE, np.array([[0, 1, 3], [0, 2, 1]]))
     below = unclosed(mesh, split(mesh, [1], "longest-edge"))
     figure, (ax,) = panels(size=PANEL)
     plot_mesh(ax, below, nodes=True)

@@ -23,8 +23,8 @@ RED, GREEN = plotting.ACCENT, plotting.PALETTE["green"]
 BLUE, SKY = plotting.SECOND, plotting.PALETTE["sky"]
 PANEL = 2.9  # inches
 JITTER = 0.14  # largest movement of an inner node along x and y, in lengths of an edge
-DART = [[0, 0], [3.4, 0.5], [0.5, 3.2], [1.1, 1.2]]  # nodes 1 to 4 of Figure 3.2
-DIAMOND = [[0, 0], [2, 0], [1, -1.5], [1, 1.5]]
+DART = np.array([[0, 0], [3.4, 0.5], [0.5, 3.2], [1.1, 1.2]])  # nodes 1 to 4 of Figure 3.2
+DIAMOND = np.array([[0, 0], [2, 0], [1, -1.5], [1, 1.5]])
 STAGES = 3  # rounds of refinement
 
 
@@ -74,7 +74,7 @@ def _movement(ax: Axes, mesh: ml.Mesh) -> None:
 @style()
 def figure_3_2() -> Figure:
     """A quadrilateral that is not convex, and what a swap would do to it (Figure 3.2)."""
-    mesh = ml.Mesh(DART, [[0, 1, 3], [0, 3, 2]])
+    mesh = ml.Mesh(DART, np.array([[0, 1, 3], [0, 3, 2]]))
     edge = mesh.boundary.argmin()
     figure, axes = panels(2, size=PANEL, labels=True)
     for ax, shown in zip(axes, (mesh, flipped(mesh, edge)), strict=True):
@@ -178,7 +178,7 @@ def figure_3_8() -> Figure:
     """Green refinement repeated, above; taken back before each round, below (Figure 3.8)."""
     figure, axes = panels(2 * STAGES, rows=2, size=PANEL, labels=True)
     for row, forget in zip(axes.reshape(2, STAGES), (True, False), strict=True):
-        mesh = ml.Mesh(DIAMOND, [[0, 1, 3], [0, 2, 1]])
+        mesh = ml.Mesh(DIAMOND, np.array([[0, 1, 3], [0, 2, 1]]))
         for ax in row:
             mesh = split(mesh, _below(mesh)).mesh
             plot_mesh(ax, mesh, elements=np.flatnonzero(mesh.corners[..., 1].mean(axis=1) > 0))

@@ -10,7 +10,7 @@ from meshlib.support.random_numbers import Draws
 ROW = 0.866  # height of a row of almost equilateral elements
 SEED = 3
 NEAR = 1e-9  # distance up to which a node lies in the middle of an edge
-TRIANGLE = [[0.0, 0.3], [4.2, 0.0], [1.6, 3.4]]
+TRIANGLE = np.array([[0.0, 0.3], [4.2, 0.0], [1.6, 3.4]])
 BULGES = [[0.0, -0.25], [0.3, 0.2], [-0.3, 0.25]]  # movements of the midpoints of its three sides
 SQUARE = [[0, 0], [0.45, 0], [1, 0], [1, 0.55], [1, 1], [0.55, 1], [0, 1], [0, 0.5], [0.74, 0.3]]
 
@@ -26,7 +26,7 @@ def hexagon(rings: int, jitter: float = 0.0) -> ml.Mesh:
 
 def four_elements() -> tuple[ml.Mesh, int]:
     """An element with a neighbour at each side: the mesh, and the number of the element."""
-    start = ml.Mesh(TRIANGLE, [[0, 1, 2]])
+    start = ml.Mesh(TRIANGLE, np.array([[0, 1, 2]]))
     parts = split(start, [0]).mesh
     nodes = parts.nodes + np.vstack([np.zeros((start.n_nodes, 2)), BULGES])
     middle = int((parts.elements >= start.n_nodes).all(axis=1).argmax())
