@@ -42,12 +42,12 @@ def write(folder, explorations=EVERY):
 
 
 def parallel(function, items):
-    """As `map`, on all cores."""
+    """Like `map`, on all cores."""
     return joblib.Parallel(n_jobs=-1, return_as="generator")(map(joblib.delayed(function), items))
 
 
 def write_all(app):
-    """Write all of it before the pages are made."""
+    """Write the files of all explorers before the pages are made."""
     if app.builder.format == "html":
         write(Path(app.outdir) / "_static")
 

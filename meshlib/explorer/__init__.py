@@ -28,13 +28,13 @@ class Explorer:
     scene : Scene
         What is shown.
     controls : dict of ipywidgets.Widget
-        By setting; to set one's ``value`` is to use it by hand.
+        By setting; to assign to the ``value`` of one is like using it by hand.
     frames : ipywidgets.Widget
         Chooses the frame.
     view : anywidget.AnyWidget
-        Draws it.
+        Draws the frame.
     widget : ipywidgets.VBox
-        All of it, to place among other widgets.
+        Controls and view, to place among other widgets.
 
     Raises
     ------
@@ -68,7 +68,7 @@ class Explorer:
         self._follow()
 
     def _follow(self, _: Any = None) -> None:
-        """Bring scene and view up to date with the controls; an adapted mesh stays one."""
+        """Show the scene of the settings: its last frame, if the last one was shown, else the same frame."""
         from .atlas import packed
 
         self.scene = self.exploration.scene(**{name: c.value for name, c in self.controls.items()})
@@ -83,7 +83,7 @@ class Explorer:
         return f"Explorer({self.scene})"
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
-        """Live where widgets are, a picture where they are not, a line of text elsewhere."""
+        """The live view where widgets run, a picture where they do not, a line of text elsewhere."""
         bundle = self.widget._repr_mimebundle_(include=include, exclude=exclude)
         return bundle | {"text/plain": repr(self)} | self._picture()
 

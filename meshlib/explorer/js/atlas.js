@@ -3,7 +3,7 @@
 /** @import { Atlas, Costs, Frame, GivenCosts, Numbers, Pair, Points, Scene, Try } from "./types" */
 
 const KINDS = { f8: Float64Array, f4: Float32Array, u1: Uint8Array, u2: Uint16Array, u4: Uint32Array };
-const HEAD = 4;                                      // bytes of the number in front: the length of the header
+const HEAD = 4;                                      // bytes in front, with the length of the header
 export const GRID = 101;                             // points along each side, as in scene.py
 
 /** The atlas in a buffer.
@@ -33,7 +33,7 @@ export function sceneAt(atlas, k) {
            frames: 1 + (end - first || film.length), traced: end > first };
 }
 
-// -- frames ----------------------------------------------------------------------------------------
+// -- frames --------------------------------------------------------------------------------------
 
 /** Frame 0 is the start mesh; those after it are the tries of a trace, or else the meshes of the film.
  * @type {(scene: Scene, frame: number) => Frame} */
@@ -102,7 +102,7 @@ function counterClockwise([p, q, r], { x, y }) {
   return turn > 0 ? [p, q, r] : [p, r, q];
 }
 
-// -- costs for which there is no formula ---------------------------------------------------------------
+// -- costs for which there is no formula -------------------------------------------------------
 
 /** Name of an edge, element or node in `Costs`, by its points.
  * @type {(points: Iterable<number>) => string} */

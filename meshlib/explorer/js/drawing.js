@@ -51,8 +51,8 @@ export function pathOf(pen, elements, t, px, py) {
   pen.closePath();
 }
 
-/** Calls above(points) with the part of each element where u >= level, and line(points) with
- * the line where u = level; points are x, y, x, y ... on the page.
+/** Calls above(points) with the part of each element where u >= level, and line(points) with the
+ * line where u = level; points are x, y, x, y ... on the panel.
  * @type {(shown: Shown, level: number, above: ((points: number[]) => void) | null,
  *         line?: (points: number[]) => void) => void} */
 function cut({ mesh, place }, level, above, line) {
@@ -73,7 +73,7 @@ function cut({ mesh, place }, level, above, line) {
   }
 }
 
-/** Adds polygons or open lines to the path.
+/** A function that adds the polygon, or the open line, through some points to the path.
  * @type {(pen: Pen, closed: boolean) => (points: number[]) => void} */
 export function tracer(pen, closed) {
   return (points) => {

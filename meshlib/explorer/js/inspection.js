@@ -6,12 +6,12 @@ import { anglesOf, cornersOf, DEGREE, endsOf, sidesOf } from "./mesh.js";
 
 /** @import { Mesh, Pair, Pen, Points, Shown, Target } from "./types" */
 
-const NEAR = 7;                                      // pixels from an edge at which it is meant
+const NEAR = 7;                                      // pixels: a pointer nearer to an edge means the edge
 const DIGITS = 4;                                    // significant digits of costs and angles
 
 // -- what is meant ---------------------------------------------------------------------------
 
-/** The edge of a mesh nearest to a place on the page, if it is near; else the element there.
+/** The edge nearest to a place on the panel, if it is near; else the element there.
  * @type {(shown: Shown, px: number, py: number) => Target} */
 function targetAt({ mesh, place }, px, py) {
   let edge = -1, least = NEAR;
@@ -51,7 +51,7 @@ function textOf(shown, { edge, element }) {
   return element === undefined ? "" : elementText(shown, element);
 }
 
-/** The cost of an edge, or those of the elements or nodes that it joins.
+/** The cost of an edge, or the costs of the elements or nodes that it joins.
  * @type {(shown: Shown, e: number) => string} */
 function edgeText({ mesh, scene }, e) {
   const at = endsOf(mesh, e).map((n) => pointText(mesh, n)).join(" to ");

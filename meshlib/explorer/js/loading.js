@@ -12,9 +12,8 @@ export const parsed = new Promise((resolve) => {
   check();
 });
 
-/** What was compressed by gzip and then written in base 64. The stream is written and read here,
- * which takes no turn of the event loop: a blob or a response in its place would wait behind all
- * other scripts of the page.
+/** Undoes base 64 and then gzip. The stream is written and read here, which takes no turn of the
+ * event loop: a blob or a response in its place would wait behind all other scripts of the page.
  * @type {(text: string) => Promise<ArrayBuffer>} */
 export async function unpacked(text) {
   const { readable, writable } = new DecompressionStream("gzip"), writer = writable.getWriter();
@@ -49,18 +48,18 @@ function joined(parts) {
 export async function typesetAfter(opened) {
   await parsed;
   const settings = window.MathJax;
-  if (!settings || settings.version) return;         // it is not wanted, or has begun
+  if (!settings || settings.version) return;         // the page has no formulas, or MathJax has begun
   settings.startup = { pageReady: async () => {
     await Promise.allSettled(opened).then(pause);
     const formulas = Array.from(document.querySelectorAll(".math"));
     for (let k = 0; k < formulas.length; k += GROUP) {
       await window.MathJax.typesetPromise(formulas.slice(k, k + GROUP)).then(pause);
     }
-    return window.MathJax.startup.defaultPageReady(); // what is elsewhere
+    return window.MathJax.startup.defaultPageReady(); // formulas elsewhere
   } };
 }
 
-/** Until the page has been painted and what waits is done; nothing is painted while it is hidden.
+/** Resolved once the page has been painted and waiting work is done; a hidden page is not painted.
  * @type {() => Promise<void>} */
 const pause = () => new Promise((resolve) => {
   if (document.hidden) setTimeout(resolve);

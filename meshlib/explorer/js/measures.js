@@ -6,8 +6,8 @@ import { anglesOf, cornersOf, DEGREE, gradient, sum } from "./mesh.js";
 
 /** @import { Box, Mesh, Numbered, Pair, Points, Shape, Triple } from "./types" */
 
-const ON_EDGE = 1e-9;                                // spacings of the grid: a point so near an edge is on it
-const FLAT = 1e-12;                                  // area over squared size, of rounding alone
+const ON_EDGE = 1e-9;                                // spacings of the grid between an edge and a point on it
+const FLAT = 1e-12;                                  // area over squared sides that is rounding alone
 
 // -- errors on the grid -------------------------------------------------------------------
 
@@ -18,7 +18,7 @@ export function errorOf(mesh, truth, { low, high }) {
   const [dx, dy] = [0, 1].map((k) => (high[k] - low[k]) / (GRID - 1));
   for (let t = 0; t < mesh.size; t++) {
     const [p, q, r] = cornersOf(mesh, t), [g, h] = gradient(mesh, p, q, r);
-    if (isFlat(mesh, p, q, r)) continue;             // its neighbours have its points
+    if (isFlat(mesh, p, q, r)) continue;             // its points lie in its neighbours too
     /** @type {[Triple, Triple]} */
     const [xs, ys] = [[x[p], x[q], x[r]], [y[p], y[q], y[r]]];
     const last = Math.min(GRID - 1, Math.floor((Math.max(...ys) - low[1]) / dy + ON_EDGE));

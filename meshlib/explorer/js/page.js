@@ -11,7 +11,7 @@ import { makeView } from "./view.js";
 const PREFIX = "#explorer-";                         // of links to a state
 const TAG = "tag_explorer-";                         // of cells in whose place an explorer comes
 
-/** All controls of an atlas, the view below them, and what joins them, in place of what is in the cell.
+/** Puts the controls of an atlas, and the view that follows them, in place of what is in a cell.
  * @type {(atlas: Atlas, cell: Element) => void} */
 function makePage(atlas, cell) {
   const { name, controls, initial, film } = atlas.header, view = makeView();
@@ -70,7 +70,8 @@ function formOf(parts) {
   return form;
 }
 
-/** The place of the settings among all, the last control the fastest; one of them may differ.
+/** Number of the settings in the list of all, in which the last control changes fastest; the option
+ * of one control may be replaced.
  * @type {(controls: Control[], made: Made[], other?: number | null, value?: number) => number} */
 function placeOf(controls, made, other = null, value = 0) {
   return made.reduce((place, { input }, k) =>

@@ -9,7 +9,7 @@ import { drawSurface } from "./surface.js";
 
 /** @import { Eye, Layout, Mesh, Pair, Panel, PanelParts, Scene, Try } from "./types" */
 
-const STEP = 5 * DEGREE;                             // turn of the surface by an arrow key
+const STEP = 5 * DEGREE;                             // radians by which an arrow key turns the surface
 export const HINT = "Point at an edge or an element, or use the arrow keys, to see its cost.";
 /** @type {Eye} */
 export const EYE = { azimuth: -60 * DEGREE, elevation: 32 * DEGREE };

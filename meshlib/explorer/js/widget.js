@@ -15,7 +15,7 @@ export function render({ model, el }) {
     if (scene) view.show(scene, Math.min(model.get("frame"), scene.frames - 1));
   };
   const load = () => {
-    const bytes = model.get("atlas");                // a DataView; arrays want aligned memory
+    const bytes = model.get("atlas");                // a DataView; typed arrays need aligned memory
     if (!bytes.byteLength) return;
     scene = sceneAt(decode(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength)), 0);
     show();
