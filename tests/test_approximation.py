@@ -159,7 +159,7 @@ def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
 
 
 def test_bisections_leave_angles_as_they_were():
-    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they are made."""
+    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever made."""
     draft = Draft(Misfit(front, 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
     while draft.n_nodes < 200:
         before = draft.n_nodes
@@ -213,8 +213,9 @@ def test_a_function_of_one_direction_gets_three_quarters_of_the_error_of_strips(
 
 
 def test_nodes_in_turn_in_figures():
-    """Of u = x^2, elements over two spacings h have d = 2 (h^2, h^2, 4 h^2), those of strips d = 2 (0, 4h^2, 4h^2).
+    """Of u = x^2, elements over two spacings h have d = 2 (h^2, h^2, 4 h^2).
 
+    Those of strips have d = 2 (0, 4h^2, 4h^2).
     The errors are as the roots of sum d^2 + (sum d)^2: of 54 and 96.
     """
 
@@ -281,7 +282,7 @@ def test_the_largest_error_of_large_and_small_functions(factor):
 
 @pytest.mark.parametrize("norm, error", [("L2", 0.21082 / 162), ("max", 1 / 324)])
 def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
-    """Of x^2 - y^2 with spacings h: an L2 error of h^2 / sqrt(90), the limit itself, and a largest one of h^2 / 4."""
+    """Of x^2 - y^2 with spacings h: L2 error h^2 / sqrt(90), the limit itself, and largest error h^2 / 4."""
     found = approximate(problems.functions["hyperbolic"], nodes=100, norm=norm)
     assert found.mesh.validate().counts == (100, 261, 162)
     assert found.error == pytest.approx(error, rel=1e-4)

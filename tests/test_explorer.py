@@ -229,7 +229,7 @@ def test_an_adapted_mesh_stays_one_and_another_frame_stays():
 def test_colours_of_the_view_are_matplotlibs():
     matplotlib = pytest.importorskip("matplotlib")
     for name in ("viridis", "cividis"):
-        listed = re.search(rf"const {name.upper()} = \[(.*?)\]", scripts.module(), re.S)[1]
+        listed = re.search(rf"const {name.upper()} = \[(.*?)\]", scripts.module(), re.DOTALL)[1]
         stops = re.findall(r"#\w{6}", listed)
         table = matplotlib.colormaps[name](np.arange(len(stops)) / 10)
         assert stops == [matplotlib.colors.to_hex(colour) for colour in table]

@@ -65,7 +65,7 @@ def test_green_closure_halves_some_angles_once(mark):
     assert found[-1] == pytest.approx(found[len(found) // 2]) and found[-1] > 7
 
 
-@pytest.mark.parametrize("mark", ("edge", "density"))
+@pytest.mark.parametrize("mark", ["edge", "density"])
 def test_midpoint_insertion_cuts_no_edge(mark):
     """So the error on the edges of the start stays, and angles shrink in geometric progression."""
     found = rounds("SR3", "centroid", mark)
@@ -186,7 +186,7 @@ def test_the_table_of_gains(monkeypatch):
     found = rows(combining.table_gains())
     steps, errors = ([float(row[k]) for row in found] for k in (1, 3))
     assert steps == sorted(steps) and errors == sorted(errors, reverse=True)
-    assert all(n <= 10**power for n, power in zip(steps, (1, 2, 3)))
+    assert all(n <= 10**power for n, power in zip(steps, (1, 2, 3), strict=True))
 
 
 def test_in_turn_ends_where_neither_way_gains():

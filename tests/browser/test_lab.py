@@ -59,7 +59,7 @@ def lab(tmp_path_factory):
         "JUPYTERLAB_WORKSPACES_DIR": str(folder / "workspaces"),
     }
     with (
-        open(folder / "log", "w") as log,
+        (folder / "log").open("w") as log,
         subprocess.Popen(command, env=os.environ | own, stdout=log, stderr=log) as process,
     ):
         address = f"http://127.0.0.1:{port}"
