@@ -189,7 +189,10 @@ for order in (None, np.arange(mesh.n_edges)[::-1]):
 OWN = (
     FRESH
     + """
-own = criteria.pointwise("own", "element", lambda ax, ay, au, bx, by, bu, cx, cy, cu: abs(au - bu) + abs(bu - cu))
+def rise(ax, ay, au, bx, by, bu, cx, cy, cu):
+    return abs(au - bu) + abs(bu - cu)
+
+own = criteria.pointwise("own", "element", rise)
 show(swapped(problems.mesh("33"), problems.SR2, own, norm=1))
 """
 )
@@ -235,7 +238,7 @@ def test_the_backend_of_this_run_is_the_one_asked_for():
 
     installed = importlib.util.find_spec("numba") is not None
     asked = os.environ.get("MESHLIB_BACKEND", "auto")
-    assert backend.NAME == ("numba" if asked != "python" and installed else "python")
+    assert ("numba" if asked != "python" and installed else "python") == backend.NAME
 
 
 def test_core_needs_neither_numba_nor_matplotlib():

@@ -1,4 +1,4 @@
-"""The combined strategy, patch by patch (Algorithm 7.5.1): it ends under two conditions, and cycles without."""
+"""The combined strategy, patch by patch (Algorithm 7.5.1): it ends under two conditions, else it cycles."""
 
 from unittest import mock
 

@@ -179,7 +179,8 @@ def test_unknown_criteria(square, call, arguments, expected):
         ({"norm": 3}, "unknown: norm 3 is not known (known: 'L1', 'L2', 'max', 'lexicographic')"),
         (
             {"norm": "maxx"},
-            "unknown: norm 'maxx' is not known; did you mean 'max'? (known: 'L1', 'L2', 'max', 'lexicographic')",
+            "unknown: norm 'maxx' is not known; did you mean 'max'? "
+            "(known: 'L1', 'L2', 'max', 'lexicographic')",
         ),
         (
             {"norm": "lexicographical"},
@@ -296,7 +297,7 @@ def test_arguments_of_smoothed(square, arguments, expected):
 
 def test_criteria_and_problems_by_name():
     assert (
-        message(criteria.Criterion, "x", "egde", len)
+        message(criteria.Criterion, "x", "egde", len)  # codespell:ignore egde
         == "unknown: place 'egde' is not known; did you mean 'edge'? (known: 'edge', 'element', 'node')"
     )
     assert (
@@ -330,7 +331,7 @@ def test_nothing_is_changed_by_a_refusal(rng):
     ):
         message(call, mesh, values, **arguments)
     message(smoothed, mesh, -np.ones(33))
-    for array, copy in zip((mesh.nodes, mesh.elements, values), before):
+    for array, copy in zip((mesh.nodes, mesh.elements, values), before, strict=True):
         assert np.array_equal(array, copy)
 
 

@@ -147,8 +147,11 @@ def test_error_of_a_quadratic_in_closed_form(start, h):
     "name, error", [("convex", np.sqrt(11 / 90) / 64), ("product", 1 / (64 * np.sqrt(90)))]
 )
 def test_error_on_81_nodes(name, error):
-    """Right-angled elements with legs 1/8; for x^2 + y^2, d = 2|e|^2 = (2, 2, 4)/64, so that
-    A/720 (24 + 64)/64^2 summed over 2A = 1/64 is 88/720/64^2 = (11/90)/64^2."""
+    """Right-angled elements with legs 1/8.
+
+    For x^2 + y^2, d = 2|e|^2 = (2, 2, 4)/64, so that
+    A/720 (24 + 64)/64^2 summed over 2A = 1/64 is 88/720/64^2 = (11/90)/64^2.
+    """
     u = problems.functions[name]
     assert Interpolant(problems.mesh("81"), u).l2_error(u, rule="exact") == pytest.approx(error, rel=1e-12)
 
@@ -206,7 +209,7 @@ def test_trapezium_needs_a_rectangle(nodes):
 
 def test_a_hole_between_the_points_of_the_grid_is_noticed(frame):
     """With 4 x 4 points none lies inside the hole."""
-    with pytest.raises(MeshError, match="^domain: the trapezium rule needs a rectangular domain; "):
+    with pytest.raises(MeshError, match=r"^domain: the trapezium rule needs a rectangular domain; "):
         Interpolant(frame, affine).l2_error(affine, points=4, rule="trapezium")
 
 

@@ -50,9 +50,8 @@ def imports():
             if isinstance(node, ast.ImportFrom):
                 target = target_of(name, node)
                 for alias in node.names:
-                    found.add(
-                        (name, target + (alias.name,) if target + (alias.name,) in modules() else target)
-                    )
+                    inner = (*target, alias.name)
+                    found.add((name, inner if inner in modules() else target))
             elif isinstance(node, ast.Import):
                 found |= {(name, tuple(alias.name.split("."))) for alias in node.names}
     return {(a, b) for a, b in found if b in modules() and a != b}

@@ -73,7 +73,7 @@ def test_the_order_of_nodes_changes_ties_only(nodes, seed):
         Interpolant(m, lambda x, y: np.sin(3 * x / nodes.max()) + (y / nodes.max()) ** 3).gradients
         for m in meshes_
     ]
-    first, second = (m.areas @ (g**2).sum(axis=1) for m, g in zip(meshes_, gradients))
+    first, second = (m.areas @ (g**2).sum(axis=1) for m, g in zip(meshes_, gradients, strict=True))
     assert meshes_[0].counts == meshes_[1].counts
     assert np.isclose(first, second, rtol=1e-9)
 

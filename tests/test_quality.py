@@ -46,7 +46,7 @@ def test_half_a_square():
 
 
 def test_half_an_equilateral():
-    """Angles 30, 60, 90: skewness (30 + 0 + 30)/3 = 20 degrees; AR 4 sqrt(3) (sqrt(3)/8) / (1 + 1/4 + 3/4)."""
+    """Angles 30, 60, 90: skewness (30 + 0 + 30)/3 = 20 degrees; AR 4 sqrt(3) (sqrt(3)/8)/(1 + 1/4 + 3/4)."""
     q = one((0, 0), (0.5, 0), (0, HEIGHT))
     assert q.maximum_angle == pytest.approx([90])
     assert q.skewness == pytest.approx([np.radians(20)])
@@ -159,7 +159,10 @@ def test_the_longest_edge_halves():
 def test_valence_by_hand(square):
     """A fan of six around a node: 6 in the middle, 2 at the rim."""
     turn = np.arange(6) * np.pi / 3
-    fan = Mesh([(0, 0), *zip(np.cos(turn), np.sin(turn))], [(0, k + 1, (k + 1) % 6 + 1) for k in range(6)])
+    fan = Mesh(
+        [(0, 0), *np.column_stack([np.cos(turn), np.sin(turn)])],
+        [(0, k + 1, (k + 1) % 6 + 1) for k in range(6)],
+    )
     assert valence(fan).tolist() == [6, 2, 2, 2, 2, 2, 2]
     assert valence(square).tolist() == [2, 1, 2, 1]
 

@@ -126,7 +126,7 @@ def test_edges_by_counting_are_those_by_sorting(hole, rng, monkeypatch):
 
 
 def test_half_edges_by_hand(square):
-    """Elements (0, 1, 2), (0, 2, 3): their common side is opposite node 1 of the first, node 3 of the second."""
+    """Elements (0, 1, 2), (0, 2, 3): their common side is opposite node 1 in one, node 3 in the other."""
     twin, slot, half = (np.asarray(v) for v in half_edges(square.element_edges, square.n_edges, for_work(0)))
     assert twin.tolist() == [-1, 5, -1, -1, -1, 1]
     assert square.edges[slot].tolist() == [[1, 2], [0, 2], [0, 1], [2, 3], [0, 3], [0, 2]]

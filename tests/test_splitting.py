@@ -1,5 +1,7 @@
 """Marking and splitting against slow references, which know edges as pairs of nodes."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -135,7 +137,7 @@ def ranking(costs, order):
     """Numbers by descending cost, those that tie in the given order; and the groups that tie."""
     numbers = sorted(order, key=lambda i: -costs[i])
     groups = [[numbers[0]]]
-    for i, j in zip(numbers, numbers[1:], strict=False):
+    for i, j in pairwise(numbers):
         if costs[i] - costs[j] > TIED * max(costs):
             groups.append([])
         groups[-1].append(j)

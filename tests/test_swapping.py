@@ -91,7 +91,8 @@ def test_the_result_is_locally_optimal(name, norm, problem):
 def test_affine_data_move_nothing(name, norm, rng):
     for mesh in (problems.mesh("33"), problems.mesh("81"), shuffled(delaunay(lattice(4, 3) * 0.1), rng)):
         for scale in (1.0, 1e-6, 1e6):
-            result = swapped(mesh, lambda x, y: scale * (3 - 2 * x + 5 * y), name, norm=norm)
+            x, y = mesh.nodes.T
+            result = swapped(mesh, scale * (3 - 2 * x + 5 * y), name, norm=norm)
             assert result.swaps == 0 and result.mesh is mesh
 
 
@@ -105,7 +106,7 @@ def test_valid_unchanged_and_optimal(problem, name, norm, seed):
     result.mesh.validate()
     assert result.mesh.counts == mesh.counts
     assert np.array_equal(result.mesh.boundary_nodes, mesh.boundary_nodes)
-    for array, copy in zip((mesh.nodes, mesh.elements, values), before):
+    for array, copy in zip((mesh.nodes, mesh.elements, values), before, strict=True):
         assert np.array_equal(array, copy)
     assert result.cost_after <= result.cost_before * (1 + 1e-12)
 
@@ -207,8 +208,10 @@ def lower_hull(nodes, u):
 
 
 def test_one_swap_by_hand():
-    """u = 1 at nodes 0 and 2 of the square: the ridge 0-2 is one, the valley 1-3 another; with
-    a fifth node beside it, only the diagonal 0-2 leaves the data of the outer element in plane."""
+    """u = 1 at nodes 0 and 2 of the square: the ridge 0-2 is one, the valley 1-3 another.
+
+    With a fifth node beside it, only the diagonal 0-2 leaves the data of the outer element in plane.
+    """
     mesh = Mesh([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0]], [[0, 1, 3], [1, 2, 3], [1, 4, 2]])
     u = np.array([0.0, 1, 2, 1, 2])
     u[2] = 1.0  # u = x but for the corner (0, 1)

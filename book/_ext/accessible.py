@@ -7,8 +7,9 @@ finished pages. The script of the icons, which is larger than a page, comes afte
 import re
 from pathlib import Path
 
+SEARCH = 'search-button-field search-button__button pst-js-only" title="Search"'
 MENDED = {
-    'search-button-field search-button__button pst-js-only" title="Search" aria-label="Search"': 'search-button-field search-button__button pst-js-only" title="Search"',
+    f'{SEARCH} aria-label="Search"': SEARCH,
     'data-mode="light" title="Light"': 'data-mode="light"',
     'data-mode="dark"  title="Dark"': 'data-mode="dark"',
     'data-mode="auto"  title="System Settings"': 'data-mode="auto"',

@@ -115,6 +115,7 @@ def _run_jupyterlite(folder, target):
         cwd=folder,
         capture_output=True,
         text=True,
+        check=False,
     )
     if done.returncode:
         raise RuntimeError(f"JupyterLite was not built:\n{done.stdout}\n{done.stderr}")
