@@ -26,7 +26,7 @@ def refined(key, label="refined"):
     found, figure, ax = compared(key, label)
     plotting.shade_elements(ax, found.mesh, np.isin(found.record.parents, found.record.marked))
     plotting.mark_nodes(
-        ax, found.mesh, np.arange(found.start.n_nodes, found.mesh.n_nodes), plotting.ACCENT, DOT
+        ax, found.mesh, np.arange(found.start.n_nodes, found.mesh.n_nodes), colour=plotting.ACCENT, size=DOT
     )
     return figure
 

@@ -130,7 +130,7 @@ def annealed():
         ("annealed", run.mesh, run.cost_after, found.error_annealed),
     )
     for ax, (way, mesh, cost, error) in zip(axes[1:], ends, strict=True):
-        plotting.plot_contours(ax, Interpolant(mesh, problems.functions[SHOWN[1]]), CONTOURS)
+        plotting.plot_contours(ax, Interpolant(mesh, problems.functions[SHOWN[1]]), levels=CONTOURS)
         plotting.plot_mesh(ax, mesh, width=FINE_WIDTH)
         ax.set_title(f"{way}\ncost {cost:.2f}, $L_2$ {error:.4f}", fontsize="small")
     return figure

@@ -38,7 +38,7 @@ def _reconnection(ax, mesh):
     inner = np.flatnonzero(~mesh.boundary)
     edge = min(inner, key=lambda e: _worst_angle(flipped(mesh, e)))
     other = flipped(mesh, edge)
-    highlight_edges(ax, mesh, [edge], plotting.FAINT, linestyle="--")
+    highlight_edges(ax, mesh, [edge], colour=plotting.FAINT, linestyle="--")
     plot_mesh(ax, other, edges=plotting.edges_not_in(other, mesh))
 
 
@@ -50,16 +50,16 @@ def _insertion(ax, mesh):
     refinement = split(mesh, [mesh.areas.argmax()], "centroid")
     new = np.arange(mesh.n_nodes, refinement.mesh.n_nodes)
     plot_mesh(ax, refinement.mesh, edges=np.concatenate(cuts(mesh, refinement)))
-    plotting.mark_nodes(ax, refinement.mesh, new, RED)
+    plotting.mark_nodes(ax, refinement.mesh, new, colour=RED)
 
 
 def _movement(ax, mesh):
     moved = ml.smoothed(mesh).mesh
     node = np.flatnonzero(~mesh.boundary_nodes)
     around = (mesh.edges == node).any(axis=1)
-    highlight_edges(ax, mesh, around, plotting.FAINT, linestyle="--")
+    highlight_edges(ax, mesh, around, colour=plotting.FAINT, linestyle="--")
     plot_mesh(ax, moved, edges=around)
-    plotting.mark_nodes(ax, moved, node, RED)
+    plotting.mark_nodes(ax, moved, node, colour=RED)
 
 
 @style()
@@ -71,7 +71,7 @@ def figure_3_2():
     for ax, shown in zip(axes, (mesh, flipped(mesh, edge)), strict=True):
         inner = shown.boundary.argmin()
         for element, colour in zip(shown.edge_elements[inner], (plotting.SHADE, SKY), strict=True):
-            shade_elements(ax, shown, [element], colour)
+            shade_elements(ax, shown, [element], colour=colour)
         plot_mesh(ax, shown, edges=[inner], nodes=True)
         number_nodes(ax, shown, labels=range(1, 5))
     return figure
@@ -86,8 +86,8 @@ def figure_3_3():
     sides = np.setdiff1d(mesh.element_edges[pair], edge)
     figure, (ax,) = panels(size=1.3 * PANEL)
     plot_mesh(ax, mesh, elements=np.union1d(pair, mesh.neighbours[pair]))
-    highlight_edges(ax, mesh, sides, BLUE)
-    highlight_edges(ax, mesh, [edge], RED)
+    highlight_edges(ax, mesh, sides, colour=BLUE)
+    highlight_edges(ax, mesh, [edge], colour=RED)
     return figure
 
 
@@ -107,7 +107,7 @@ def figure_3_4():
     refinement = ml.refined(mesh, np.zeros(mesh.n_nodes), worst, fraction=1 / mesh.n_elements, mark="node")
     figure, axes = panels(2, size=PANEL, labels=True)
     plot_mesh(axes[0], mesh, elements=refinement.marked)
-    plotting.mark_nodes(axes[0], mesh, [centre], RED)
+    plotting.mark_nodes(axes[0], mesh, [centre], colour=RED)
     _plot_split(axes[1], mesh, refinement)
     return figure
 
@@ -117,7 +117,7 @@ def _plot_split(ax, mesh, refinement):
     shaded = np.isin(refinement.parents, refinement.marked)
     plot_mesh(ax, refinement.mesh, elements=np.flatnonzero(shaded))
     for edges, colour in zip(cuts(mesh, refinement), (RED, GREEN), strict=True):
-        highlight_edges(ax, refinement.mesh, edges, colour)
+        highlight_edges(ax, refinement.mesh, edges, colour=colour)
 
 
 def _plot_hanging(ax, mesh, refinement, colour=RED):
@@ -127,9 +127,9 @@ def _plot_hanging(ax, mesh, refinement, colour=RED):
     plot_mesh(ax, shown, elements=children)
     new = refinement.mesh.edges[np.concatenate(cuts(mesh, refinement))]
     inside = np.isin(shown.edges @ [shown.n_nodes, 1], new @ [shown.n_nodes, 1])
-    highlight_edges(ax, shown, inside, colour)
+    highlight_edges(ax, shown, inside, colour=colour)
     if len(hanging(shown)):
-        plotting.mark_nodes(ax, shown, hanging(shown), BLUE)
+        plotting.mark_nodes(ax, shown, hanging(shown), colour=BLUE)
 
 
 @style()
@@ -191,7 +191,7 @@ def figure_3_9():
     figure, axes = panels(2, size=PANEL, labels=True)
     plot_mesh(axes[0], mesh, elements=[middle])
     _plot_hanging(axes[1], mesh, refinement)
-    plotting.mark_nodes(axes[1], refinement.mesh, [mesh.n_nodes], RED)
+    plotting.mark_nodes(axes[1], refinement.mesh, [mesh.n_nodes], colour=RED)
     return figure
 
 
@@ -204,7 +204,7 @@ def figure_3_10():
     lengths = np.linalg.norm(np.diff(mesh.nodes[mesh.edges[edges]], axis=1), axis=2)
     figure, axes = panels(3, size=PANEL, labels=True)
     plot_mesh(axes[0], mesh, elements=[middle])
-    highlight_edges(axes[0], mesh, edges[[lengths.argmax()]], BLUE)
+    highlight_edges(axes[0], mesh, edges[[lengths.argmax()]], colour=BLUE)
     _plot_hanging(axes[1], mesh, refinement)
     _plot_split(axes[2], mesh, refinement)
     return figure

@@ -70,7 +70,7 @@ def _distribution(ax, values, text):
         weights=np.full(len(values), 100 / len(values)),
         color=plotting.SECOND,
     )
-    ax.axvline(text, color=plotting.ACCENT, linewidth=plotting.look.THICK / 2)
+    ax.axvline(text, color=plotting.ACCENT, linewidth=plotting.LOOK.lines.thick / 2)
     ax.set(yticks=[], xlim=(low - room, high + room))
     ax.xaxis.set_major_locator(plotting.look.pyplot().MaxNLocator(2))
     ax.spines[["top", "right", "left"]].set_visible(False)
