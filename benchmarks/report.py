@@ -255,4 +255,4 @@ def _curves(ax, measure, kind):
         )
     ax.set(xscale="log", yscale="log")
     ax.spines[["top", "right"]].set_visible(False)
-    ax.grid(True, color=plotting.look.FAINT, linewidth=0.5)
+    ax.grid(True, color=plotting.FAINT, linewidth=0.5)

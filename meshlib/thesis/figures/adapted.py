@@ -34,7 +34,7 @@ def refined(key: str, label: str = "refined") -> Figure:
     found, figure, ax = compared(key, label)
     plotting.shade_elements(ax, found.mesh, np.isin(found.record.parents, found.record.marked))
     new = np.arange(found.start.n_nodes, found.mesh.n_nodes)
-    plotting.mark_nodes(ax, found.mesh, new, plotting.ACCENT, DOT)
+    plotting.mark_nodes(ax, found.mesh, new, colour=plotting.ACCENT, size=DOT)
     return figure
 
 

@@ -73,7 +73,7 @@ def _marks(axes: Sequence[Axes]) -> None:
     """Lines where contours run along lines of nodes, named by their slope above the first panel."""
     for angle, name in zip(alignment.ALIGNED, MARKED, strict=True):
         for ax in axes:
-            ax.axvline(angle, color=plotting.FAINT, linewidth=plotting.look.EDGE_WIDTH, zorder=0)
+            ax.axvline(angle, color=plotting.FAINT, linewidth=plotting.LOOK.lines.edge, zorder=0)
         place = ("data", "axes fraction")
         axes[0].annotate(name, (angle, 1), (0, 3), xycoords=place, textcoords="offset points", ha="center")
     for ax in axes:
@@ -127,7 +127,7 @@ def _meshes(cases: Sequence[tuple[str, float]], titles: Sequence[str]) -> Figure
     figure.set_size_inches(plotting.WIDTH, plotting.WIDTH / len(cases) + 0.4)
     for ax, (strategy, angle), title in zip(axes, cases, titles, strict=True):
         mesh, u = alignment.adapted(strategy, angle), alignment.Ramp(angle)
-        plotting.plot_contours(ax, Interpolant(mesh, u), LEVELS, (0, 1))
+        plotting.plot_contours(ax, Interpolant(mesh, u), levels=LEVELS, limits=(0, 1))
         plotting.plot_mesh(ax, mesh, width=FINE_WIDTH)
         error, skewness = alignment.measures(strategy, angle)
         ax.set_title(f"{title}\n$L_2$ {error:.4f}, skewness {skewness:.2f}", fontsize="small")

@@ -116,7 +116,7 @@ def annealed() -> Figure:
         ("annealed", run.mesh, run.cost_after, found.error_annealed),
     )
     for ax, (way, mesh, cost, error) in zip(right, ends, strict=True):
-        plotting.plot_contours(ax, Interpolant(mesh, problems.functions[SHOWN[1]]), CONTOURS)
+        plotting.plot_contours(ax, Interpolant(mesh, problems.functions[SHOWN[1]]), levels=CONTOURS)
         plotting.plot_mesh(ax, mesh, width=FINE_WIDTH)
         ax.set_title(f"{way}\ncost {cost:.2f}, $L_2$ {error:.4f}", fontsize="small")
     return figure

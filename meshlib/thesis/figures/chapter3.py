@@ -47,7 +47,7 @@ def _reconnection(ax: Axes, mesh: ml.Mesh) -> None:
     inner = np.flatnonzero(~mesh.boundary)
     edge = min(inner, key=lambda e: _worst_angle(flipped(mesh, e)))
     other = flipped(mesh, edge)
-    highlight_edges(ax, mesh, [edge], plotting.FAINT, linestyle="--")
+    highlight_edges(ax, mesh, [edge], colour=plotting.FAINT, linestyle="--")
     plot_mesh(ax, other, edges=plotting.edges_not_in(other, mesh))
 
 
@@ -59,16 +59,16 @@ def _insertion(ax: Axes, mesh: ml.Mesh) -> None:
     refinement = split(mesh, [mesh.areas.argmax()], "centroid")
     new = np.arange(mesh.n_nodes, refinement.mesh.n_nodes)
     plot_mesh(ax, refinement.mesh, edges=np.concatenate(cuts(mesh, refinement)))
-    plotting.mark_nodes(ax, refinement.mesh, new, RED)
+    plotting.mark_nodes(ax, refinement.mesh, new, colour=RED)
 
 
 def _movement(ax: Axes, mesh: ml.Mesh) -> None:
     moved = ml.smoothed(mesh).mesh
     node = np.flatnonzero(~mesh.boundary_nodes)
     around = (mesh.edges == node).any(axis=1)
-    highlight_edges(ax, mesh, around, plotting.FAINT, linestyle="--")
+    highlight_edges(ax, mesh, around, colour=plotting.FAINT, linestyle="--")
     plot_mesh(ax, moved, edges=around)
-    plotting.mark_nodes(ax, moved, node, RED)
+    plotting.mark_nodes(ax, moved, node, colour=RED)
 
 
 @style()
@@ -80,7 +80,7 @@ def figure_3_2() -> Figure:
     for ax, shown in zip(axes, (mesh, flipped(mesh, edge)), strict=True):
         inner = shown.boundary.argmin()
         for element, colour in zip(shown.edge_elements[inner], (plotting.SHADE, SKY), strict=True):
-            shade_elements(ax, shown, [element], colour)
+            shade_elements(ax, shown, [element], colour=colour)
         plot_mesh(ax, shown, edges=[inner], nodes=True)
         number_nodes(ax, shown, labels=range(1, 5))
     return figure
@@ -95,8 +95,8 @@ def figure_3_3() -> Figure:
     sides = np.setdiff1d(mesh.element_edges[pair], edge)
     figure, (ax,) = panels(size=1.3 * PANEL)
     plot_mesh(ax, mesh, elements=np.union1d(pair, mesh.neighbours[pair]))
-    highlight_edges(ax, mesh, sides, BLUE)
-    highlight_edges(ax, mesh, [edge], RED)
+    highlight_edges(ax, mesh, sides, colour=BLUE)
+    highlight_edges(ax, mesh, [edge], colour=RED)
     return figure
 
 
@@ -116,7 +116,7 @@ def figure_3_4() -> Figure:
     refinement = ml.refined(mesh, np.zeros(mesh.n_nodes), worst, fraction=1 / mesh.n_elements, mark="node")
     figure, axes = panels(2, size=PANEL, labels=True)
     plot_mesh(axes[0], mesh, elements=refinement.marked)
-    plotting.mark_nodes(axes[0], mesh, [centre], RED)
+    plotting.mark_nodes(axes[0], mesh, [centre], colour=RED)
     _plot_split(axes[1], mesh, refinement)
     return figure
 
@@ -126,7 +126,7 @@ def _plot_split(ax: Axes, mesh: ml.Mesh, refinement: Refinement) -> None:
     shaded = np.isin(refinement.parents, refinement.marked)
     plot_mesh(ax, refinement.mesh, elements=np.flatnonzero(shaded))
     for edges, colour in zip(cuts(mesh, refinement), (RED, GREEN), strict=True):
-        highlight_edges(ax, refinement.mesh, edges, colour)
+        highlight_edges(ax, refinement.mesh, edges, colour=colour)
 
 
 def _plot_hanging(ax: Axes, mesh: ml.Mesh, refinement: Refinement) -> None:
@@ -136,9 +136,9 @@ def _plot_hanging(ax: Axes, mesh: ml.Mesh, refinement: Refinement) -> None:
     plot_mesh(ax, shown, elements=children)
     new = refinement.mesh.edges[np.concatenate(cuts(mesh, refinement))]
     inside = np.isin(shown.edges @ [shown.n_nodes, 1], new @ [shown.n_nodes, 1])
-    highlight_edges(ax, shown, inside, RED)
+    highlight_edges(ax, shown, inside, colour=RED)
     if len(hanging(shown)):
-        plotting.mark_nodes(ax, shown, hanging(shown), BLUE)
+        plotting.mark_nodes(ax, shown, hanging(shown), colour=BLUE)
 
 
 @style()
@@ -200,7 +200,7 @@ def figure_3_9() -> Figure:
     figure, axes = panels(2, size=PANEL, labels=True)
     plot_mesh(axes[0], mesh, elements=[middle])
     _plot_hanging(axes[1], mesh, refinement)
-    plotting.mark_nodes(axes[1], refinement.mesh, [mesh.n_nodes], RED)
+    plotting.mark_nodes(axes[1], refinement.mesh, [mesh.n_nodes], colour=RED)
     return figure
 
 
@@ -213,7 +213,7 @@ def figure_3_10() -> Figure:
     lengths = np.linalg.norm(np.diff(mesh.nodes[mesh.edges[edges]], axis=1), axis=2)
     figure, axes = panels(3, size=PANEL, labels=True)
     plot_mesh(axes[0], mesh, elements=[middle])
-    highlight_edges(axes[0], mesh, edges[[lengths.argmax()]], BLUE)
+    highlight_edges(axes[0], mesh, edges[[lengths.argmax()]], colour=BLUE)
     _plot_hanging(axes[1], mesh, refinement)
     _plot_split(axes[2], mesh, refinement)
     return figure

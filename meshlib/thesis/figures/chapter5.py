@@ -129,9 +129,9 @@ def figure_5_17() -> Figure:
     for ax, mesh, label in zip(axes, (start, end), ("start", "smoothed"), strict=True):
         plotting.plot_mesh(ax, mesh)
         ax.set_title(label)
-        plotting.mark_nodes(ax, start, inner, plotting.SECOND, DOT)
+        plotting.mark_nodes(ax, start, inner, colour=plotting.SECOND, size=DOT)
     draw_ways(axes[1], start.nodes[inner], end.nodes[inner])
-    plotting.mark_nodes(axes[1], end, inner, plotting.ACCENT, DOT)
+    plotting.mark_nodes(axes[1], end, inner, colour=plotting.ACCENT, size=DOT)
     return figure
 
 

@@ -46,7 +46,7 @@ def plot_differences(ax: Axes, interpolant: Interpolant, other: Mesh) -> None:
     edges = plotting.edges_not_in(mesh, other)
     thick = creased(interpolant, edges)
     plotting.plot_mesh(ax, mesh, edges=edges[thick])
-    plotting.highlight_edges(ax, mesh, edges[~thick], plotting.SECOND, HEAVY)
+    plotting.highlight_edges(ax, mesh, edges[~thick], colour=plotting.SECOND, width=HEAVY)
 
 
 def creased(interpolant: Interpolant, edges: np.ndarray) -> np.ndarray:

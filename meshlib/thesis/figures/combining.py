@@ -51,7 +51,7 @@ def combining_compared(function: str = "DD1") -> Figure:
     before, after = (
         Interpolant(mesh, u) for mesh in (problems.mesh(combining.START), combining.adapted(function).mesh)
     )
-    figure = plotting.representation(after, before, ("start", "combined"))
+    figure = plotting.representation(after, before=before, labels=("start", "combined"))
     moved = np.flatnonzero((before.mesh.nodes != after.mesh.nodes).any(axis=1))
-    plotting.mark_nodes(figure.axes[-3], after.mesh, moved, plotting.ACCENT, DOT)
+    plotting.mark_nodes(figure.axes[-3], after.mesh, moved, colour=plotting.ACCENT, size=DOT)
     return figure

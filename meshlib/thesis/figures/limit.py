@@ -66,7 +66,7 @@ def gallery() -> Figure:
         mesh = limit.made(name).mesh
         plotting.plot_mesh(above, mesh, width=FINE)
         above.set_title(f"{name}, {mesh.n_nodes} nodes")
-        plotting.plot_contours(below, Interpolant(mesh, limit.FUNCTIONS[name]), CONTOURS)
+        plotting.plot_contours(below, Interpolant(mesh, limit.FUNCTIONS[name]), levels=CONTOURS)
     return figure
 
 

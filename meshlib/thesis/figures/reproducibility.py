@@ -73,7 +73,7 @@ def _distribution(ax: Axes, values: np.ndarray, text: float) -> None:
     ends = low - room, high + room
     shares = np.full(len(values), 100 / len(values))
     ax.hist(values, BINS, range=ends, weights=shares, color=plotting.SECOND)
-    ax.axvline(text, color=plotting.ACCENT, linewidth=plotting.look.THICK / 2)
+    ax.axvline(text, color=plotting.ACCENT, linewidth=plotting.LOOK.lines.thick / 2)
     ax.set(yticks=[], xlim=ends)
     ax.xaxis.set_major_locator(plotting.look.pyplot().MaxNLocator(2))
     ax.spines[["top", "right", "left"]].set_visible(False)
