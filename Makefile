@@ -12,14 +12,20 @@ READY := $(VENV)/.ready
 export PYDEVD_DISABLE_FILE_VALIDATION := 1
 
 .DEFAULT_GOAL := help
-.PHONY: help book test notebooks bench lock clean
+.PHONY: help book lint test test-lowest notebooks bench lock clean
 
 help: ## Show this list
-	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 12
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
 
 # --all: changes in meshlib/ do not touch the pages, so every page is read and run again.
 book: $(READY) ## Run the notebooks and build _build/html/index.html
 	$(BIN)/jupyter-book build . --all -W -n --keep-going
+
+lint: $(READY) ## Style, layout, spelling and types of the code, and the scripts where there is node
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/codespell
+	$(BIN)/mypy
 
 # First what plain Python alone can break: test_backends compares both backends by
 # itself, test_properties takes long, a browser runs no Python. Then everything, with a
@@ -45,7 +51,7 @@ lock: ## Pin the newest versions that pyproject.toml allows in requirements.txt
 	echo '-e .' >> requirements.txt
 
 clean: ## Remove everything that is not in the repository, the environment too
-	rm -rf $(VENV) $(VENV)-lock _build build *.egg-info .pytest_cache .hypothesis .ruff_cache
+	rm -rf $(VENV) $(VENV)-lock _build build *.egg-info .pytest_cache .hypothesis .ruff_cache node_modules
 	find . -name __pycache__ -prune -exec rm -rf {} +
 
 $(READY): requirements.txt pyproject.toml

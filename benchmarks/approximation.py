@@ -1,7 +1,7 @@
 """Meshes made for functions, beside peers: ``python approximation.py Franke 100 400``.
 
 Prints a JSON list with a line for each mesh.  Ours and the peers take turns, so that
-they meet the same machine.
+a slow spell of the machine hits all of them.
 """
 
 import json
@@ -17,15 +17,23 @@ from meshlib.thesis.studies import section_7_7a_limit as limit
 from meshlib.thesis.studies.appendix_b import quartered
 
 SEEDS = range(3)
-FLOORS = tuple(10.0**-k for k in range(1, 7))  # of eigenvalues, tried one after the other
-STEPS = {"DD1": (3e-3, 1e-2)}  # of differences: shorter ones hardly see its kinks
-NEIGHBOURS, TRY_ALL = 1, 1600  # for more nodes than that only the best floor and those beside it
-MOST_BY_MAX = 6400  # nodes of meshes made for the largest error, which take several times as long
-WARM = 100  # nodes of a mesh that compiles everything
-TOLERANCE_NODES = 400  # whose error is the tolerance
-DIGITS = 6  # that are kept
-FIRST_DEGREE, LEVELS, SETTLED = 12, 8, 1e-4  # of the quadrature that confirms
-POINTS, FEWEST, MOST = 2_000_000, 8, 100  # where the largest error is looked for, in all and along a side
+FLOORS = tuple(
+    10.0**-k for k in range(1, 7)
+)  # smallest eigenvalues of MMG's metric, as fractions of the largest
+STEPS = {"DD1": (3e-3, 1e-2)}  # steps of the differences: shorter ones hardly see the kinks
+TRY_ALL = 1600  # largest number of nodes for which all floors are tried
+NEIGHBOURS = 1  # floors tried on either side of the best one, for more nodes
+MOST_BY_MAX = (
+    6400  # largest number of nodes of meshes for the largest error, which take several times as long
+)
+WARM = 100  # nodes of the first mesh, which compiles everything
+TOLERANCE_NODES = 400  # nodes of the mesh whose error is the tolerance
+DIGITS = 6  # significant digits of stored numbers
+FIRST_DEGREE = 12  # degree of the quadrature that confirms an error
+LEVELS = 8  # how often it divides an element into four, at most
+SETTLED = 1e-4  # change at which it stops, as a fraction of the mean part of an element
+POINTS = 2_000_000  # points, in all, at which the largest error is looked for
+FEWEST, MOST = 8, 100  # intervals between these points along the side of an element
 
 
 def arc(x, y):
@@ -65,7 +73,7 @@ def bounds():
 
 
 def confirmed(mesh, function):
-    """L2 error by a quadrature of its own: elements are split in four until their part settles."""
+    """L2 error by an independent quadrature: elements are divided into four until the integral settles."""
     corners, values = mesh.corners, function(*mesh.nodes.T)[mesh.elements]
     coarse, done = squared_errors(corners, values, function, FIRST_DEGREE), 0.0
     for _ in range(LEVELS):
@@ -97,7 +105,7 @@ def largest(mesh, function):
 
 
 def line(name, who, nodes, mesh, seconds, **more):
-    """What is kept of a mesh."""
+    """The numbers that are stored for a mesh."""
     numbers = {"error": confirmed(mesh, FUNCTIONS[name]), "seconds": seconds} | more
     return {
         "function": name,
@@ -113,7 +121,7 @@ def _rounded(value):
 
 
 def timed(call, *arguments, **options):
-    """What a call returns, and its time."""
+    """The result of a call, and its time in seconds."""
     start = time.perf_counter()
     found = call(*arguments, **options)
     return found, time.perf_counter() - start
@@ -176,20 +184,20 @@ def floors_for(nodes, before):
 
 
 def by_tolerance(name):
-    """Nodes that a tolerance takes, and the least number that bisection over the nodes finds."""
+    """Number of nodes for a tolerance, and the smallest number that bisection finds for it."""
     u = FUNCTIONS[name]
-    tolerance = approximate(u, TOLERANCE_NODES).error
+    tolerance = approximate(u, nodes=TOLERANCE_NODES).error
     found, seconds = timed(approximate, u, tolerance=tolerance)
     low, high = TOLERANCE_NODES // 2, TOLERANCE_NODES
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (low, middle) if approximate(u, middle).error <= tolerance else (middle, high)
+        low, high = (low, middle) if approximate(u, nodes=middle).error <= tolerance else (middle, high)
     yield line(name, "tolerance", TOLERANCE_NODES, found.mesh, seconds, tolerance=tolerance, bisected=high)
 
 
 def measured(name, sizes):
     """All lines of one function."""
-    approximate(FUNCTIONS[name], WARM)
+    approximate(FUNCTIONS[name], nodes=WARM)
     lines = list(by_tolerance(name)) if TOLERANCE_NODES in sizes else []
     for nodes in sizes:
         before = [row for row in lines if row["who"] == "mmg2d"]

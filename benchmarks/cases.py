@@ -5,7 +5,7 @@ import numpy as np
 import meshlib as ml
 from meshlib import problems
 
-CLUSTERS, WIDEST, DENSEST = 40, 0.1, 0.001  # standard deviations of the clusters, by orders of magnitude
+CLUSTERS, WIDEST, DENSEST = 40, 0.1, 0.001  # number of clusters; largest and smallest standard deviation
 
 
 def random(n, rng):

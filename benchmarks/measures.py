@@ -1,7 +1,7 @@
 """What is measured: for each measure calls of ours and of the best peers, on one case.
 
-A function returns two dictionaries of calls by name.  All take the same data and do the
-same work, set-up included.
+A function returns two dictionaries of calls by name.  All take the same data and do equal
+work, set-up included.
 """
 
 from importlib.util import find_spec
@@ -18,11 +18,11 @@ PROCEDURES = {"JND-L2": ("jnd", 2), "ABN-L1": ("abn", 1), "ABN-L2": ("abn", 2)}
 
 
 def swapping(case):
-    """Adjacency and edge swapping to local optimality, against Qhull's Delaunay of the same nodes."""
+    """Adjacency and edge swapping to local optimality, against Qhull's Delaunay mesh of these nodes."""
     from scipy.spatial import Delaunay
 
     def ours(criterion, norm):
-        return lambda: ml.swapped(case.fresh(), case.values, criterion, norm, schedule="queue")
+        return lambda: ml.swapped(case.fresh(), case.values, criterion, norm=norm, schedule="queue")
 
     return (
         {name: ours(*arguments) for name, arguments in PROCEDURES.items()},
@@ -47,7 +47,7 @@ def grid(case):
 
 
 def numbering(case):
-    """The same grid on the mesh as it is and numbered along a space-filling curve, and the numbering."""
+    """Values on a grid, before and after numbering along a space-filling curve; and the numbering."""
     placed = along_curve(case.mesh)
     values = case.values[placed.nodes]
     return {
@@ -58,9 +58,9 @@ def numbering(case):
 
 
 def scattered(case):
-    """Values at as many random points as there are nodes, on the same mesh.
+    """Values on a given mesh at random points, one for each node.
 
-    At a million of them the peer needs minutes, which one kind of nodes is enough to show.
+    With a million points the peer takes minutes, so it is measured on random nodes alone.
     """
     from scipy.interpolate import LinearNDInterpolator
     from scipy.spatial import Delaunay
@@ -73,7 +73,7 @@ def scattered(case):
 
 
 def refinement(case):
-    """Refinement of a tenth of the elements, the same ones."""
+    """Refinement of a tenth of the elements, chosen at random and marked for all."""
     from skfem import MeshTri
 
     n = case.mesh.n_elements
@@ -83,7 +83,9 @@ def refinement(case):
     criterion = ml.criteria.Criterion("marked", "element", lambda a, b, c: costs)
 
     def ours(split):
-        return lambda: ml.refined(case.fresh(), case.values, criterion, SHARE, mark="element", split=split)
+        return lambda: ml.refined(
+            case.fresh(), case.values, criterion, fraction=SHARE, mark="element", split=split
+        )
 
     nodes, elements = (np.ascontiguousarray(a.T) for a in (case.nodes, case.mesh.elements.astype(np.int64)))
     return (
@@ -93,18 +95,20 @@ def refinement(case):
 
 
 def quality(case):
-    """Maximum angle, skewness and aspect ratio of every element; of the peers what is most like them."""
+    """Maximum angle, skewness and aspect ratio of every element; of the peers the nearest measures."""
     from matplotlib.tri import TriAnalyzer, Triangulation
 
     def circles():
         return TriAnalyzer(Triangulation(*case.nodes.T, case.mesh.elements)).circle_ratios()
 
-    vtk = {"VTK": _vtk(case)} if find_spec("pyvista") else {}  # large, and asked for by nothing else
+    vtk = (
+        {"VTK": _vtk(case)} if find_spec("pyvista") else {}
+    )  # a large package, which only this measure needs
     return {"three measures": lambda: ml.quality(case.fresh())}, {"matplotlib": circles, **vtk}
 
 
 def _vtk(case):
-    """Its largest and smallest angle say the skewness, its "shape" is our aspect ratio."""
+    """Its angles give the skewness, its "shape" is our aspect ratio."""
     import pyvista
 
     points = np.column_stack([case.nodes, np.zeros(len(case.nodes))])
@@ -116,16 +120,16 @@ def _vtk(case):
 
 def smoothing(case):
     """One sweep of node movement with equal springs."""
-    return {"one sweep": lambda: ml.smoothed(case.fresh(), sweeps=1)}, {}
+    return {"one sweep": lambda: ml.smoothed(case.fresh(), max_sweeps=1)}, {}
 
 
 def errors(case):
     """The L2 error, by quadrature on each element."""
-    return {"exact": lambda: ml.Interpolant(case.fresh(), case.values).l2_error(case.u, "exact")}, {}
+    return {"exact": lambda: ml.Interpolant(case.fresh(), case.values).l2_error(case.u, rule="exact")}, {}
 
 
 def validation(case):
-    """Every clause of the definition of a mesh, for arrays from elsewhere."""
+    """All checks of the definition of a mesh, on arrays not yet checked."""
     return {"validate": lambda: ml.Mesh(case.nodes, case.mesh.elements).validate()}, {}
 
 

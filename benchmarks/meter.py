@@ -1,4 +1,4 @@
-"""Time and memory of calls, in a process of their own: ``python meter.py quality random 10000 5``."""
+"""Time and memory of calls, in a separate process: ``python meter.py quality random 10000 5``."""
 
 import gc
 import json
@@ -9,15 +9,15 @@ from pathlib import Path
 from cases import Case
 from measures import MEASURES
 
-from meshlib.kernels import backend  # noqa: F401 (once it is loaded, small cases are compiled too)
+from meshlib.kernels import backend  # noqa: F401 (once loaded, small cases are compiled too)
 
-STATUS, RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")  # of Linux
-SMALL = 400  # nodes of a case that loads and compiles everything first
-MEGABYTE = 1 << 10  # in the kilobytes of the status
+STATUS, RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")  # exist on Linux
+SMALL = 400  # nodes of the first case, which loads and compiles everything
+MEGABYTE = 1 << 10  # kilobytes, the unit of the status
 
 
 def resident(what):
-    """Memory of this process in MB, ``"VmRSS"`` now or ``"VmHWM"`` at most; None where it is not told."""
+    """Memory of this process in MB, ``"VmRSS"`` now or ``"VmHWM"`` at its peak; None where unknown."""
     if not STATUS.exists():
         return None
     line = next(line for line in STATUS.read_text().splitlines() if line.startswith(what))
@@ -25,19 +25,19 @@ def resident(what):
 
 
 def memory(call):
-    """How much memory a call adds at most, in MB."""
+    """Peak memory that a call adds, in MB."""
     gc.collect()
     before = resident("VmRSS")
     if before is None:
         call()
         return None
-    RESET.write_text("5")  # forget the largest so far
+    RESET.write_text("5")  # reset the peak
     call()
     return resident("VmHWM") - before
 
 
 def seconds(call):
-    """Time that a call takes."""
+    """Time of a call in seconds."""
     gc.collect()
     start = time.perf_counter()
     call()

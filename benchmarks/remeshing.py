@@ -1,21 +1,21 @@
-"""Peers of `meshlib.approximate`: MMG's two-dimensional remesher led by a metric, and pydelatin."""
+"""Peers of `meshlib.approximate`: MMG's two-dimensional remesher with a metric, and pydelatin."""
 
 import numpy as np
 
 from meshlib import Mesh
 from meshlib.thesis.studies.section_7_7a_limit import hessians, lattice
 
-PASSES = 10  # of remeshing, each on the mesh of the one before
-STEP = 1e-4  # of differences for second derivatives
+PASSES = 10  # remeshing passes, each on the mesh of the previous pass
+STEP = 1e-4  # step of the differences for second derivatives
 START = 121  # nodes of the first lattice
 RASTER = 1025  # samples along a side for pydelatin
-LONGEST, SHORTEST = 2.0, 1e-6  # of an edge
+LONGEST, SHORTEST = 2.0, 1e-6  # lengths of an edge
 
 
 def metrics(function, nodes, floor, step, scale):
     """The metric that is optimal for the L2 norm, |det H|^(-1/6) |H| times the scale, (n, 3).
 
-    Eigenvalues of the Hessian are not below the floor, a share of their largest.
+    Eigenvalues of the Hessian are raised to the floor, a fraction of the largest eigenvalue.
     """
     size, axes = np.linalg.eigh(hessians(function, *nodes.T.clip(step, 1 - step), step))
     size = np.abs(size)
@@ -27,7 +27,7 @@ def metrics(function, nodes, floor, step, scale):
 
 
 def mmg2d(function, n_nodes, floor, step=STEP, passes=PASSES):
-    """The mesh of about so many nodes that MMG makes; the metric is scaled by what each pass gives."""
+    """A mesh of about `n_nodes` nodes by MMG; after each pass the metric is scaled to that number."""
     import mmgpy
 
     mesh, scale = lattice(START), float(n_nodes)

@@ -9,13 +9,13 @@ from statistics import median
 from cases import KINDS
 
 from meshlib import plotting
-from meshlib.thesis.tables.numbered import grid, markdown
+from meshlib.thesis.tables.markup import grid, markdown
 
 RESULTS = Path(__file__).with_name("results.json")
 MILLION = 1_000_000
 MARKERS, COLOURS = "osv^D", [plotting.PALETTE[c] for c in ("blue", "green", "sky", "orange", "black")]
-PANEL = 3.1  # inches
-# A goal: text, of which measure, nodes, what is divided by what ("ours" or a peer), and the limit.
+PANEL = 3.1  # height of a row of panels, in inches
+# A goal: text, measure, nodes, names of the calls above and below the line of the ratio, sign, limit.
 GOALS = (
     *(
         (
@@ -59,7 +59,7 @@ STARTS = {
 
 @cache
 def results():
-    """What the last run wrote."""
+    """The results of the last run."""
     return json.loads(RESULTS.read_text())
 
 
@@ -78,7 +78,7 @@ def machine():
 
 
 def sentence(about):
-    """When, on what and with what something was measured."""
+    """Date, machine and versions of a measurement."""
     versions = ", ".join(f"{name} {number}" for name, number in about["versions"].items())
     return (
         f"Measured on {about['date']} on {about['cores']} cores of {about['processor']} "
@@ -87,7 +87,7 @@ def sentence(about):
 
 
 def short_answer():
-    """What swapping costs, beside the mesh that it starts from."""
+    """Time of swapping, compared with the time of the Delaunay mesh that it starts from."""
     ours, peer = _of_random("swapping", "JND-L2"), _of_random("swapping", "SciPy Delaunay")
     return markdown(
         "The short answer: swapping edges until the mesh of a million nodes is locally optimal "
@@ -255,4 +255,4 @@ def _curves(ax, measure, kind):
         )
     ax.set(xscale="log", yscale="log")
     ax.spines[["top", "right"]].set_visible(False)
-    ax.grid(True, color=plotting.look.FAINT, linewidth=0.5)
+    ax.grid(True, color=plotting.FAINT, linewidth=0.5)

@@ -6,24 +6,24 @@ from report import results, sentence, verdict
 
 from meshlib import plotting
 from meshlib.thesis.studies.section_7_7a_limit import ZIGZAG
-from meshlib.thesis.tables.numbered import grid, markdown
+from meshlib.thesis.tables.markup import grid, markdown
 
-RATES = {"B": 1, "K": 2}  # of the error in the number of nodes, by the constant of a function
-EQUAL = "x² + y²", "x² − y²"  # curved alike everywhere
+RATES = {"B": 1, "K": 2}  # powers of the number of nodes by which errors fall, for each constant of the limit
+EQUAL = "x² + y²", "x² − y²"  # functions with constant second derivatives
 LARGE, LARGEST = 6400, 25_600  # nodes
-NEAR, FRONT = 1.05, 1.15  # of the limit
-COLUMNS = 5  # of panels
-PANEL = 1.9, 2.3  # inches
+NEAR, FRONT = 1.05, 1.15  # goals for the error, in units of the limit
+COLUMNS = 5  # panels in a row
+PANEL = 1.9, 2.3  # width and height of a panel, in inches
 WHO = {"ours": ("o", "blue", "-"), "mmg2d": ("s", "vermillion", "--"), "pydelatin": ("^", "green", "--")}
 
 
 def part():
-    """What the last run wrote of this part."""
+    """The results of the last run, as far as meshes made for functions go."""
     return results().get("approximate", {"lines": [], "B": {}, "K": {}})
 
 
 def lines(name, who, nodes):
-    """Lines of a function for so many nodes."""
+    """Results for a function and a number of nodes."""
     asked = name, who, nodes
     return [row for row in part()["lines"] if (row["function"], row["who"], row["nodes"]) == asked]
 
@@ -42,13 +42,13 @@ def sizes():
 
 
 def efficiency(name, nodes):
-    """Error times elements over the limit, of the worst seed."""
+    """Error times elements, divided by the limit, for the worst seed."""
     bound, rows = part()["B"].get(name), lines(name, "ours", nodes)
     return max(row["error"] * row["elements"] for row in rows) / bound if bound and rows else None
 
 
 def over_strips(name, nodes):
-    """Error over that of parallel strips, of the worst seed."""
+    """Error, divided by the error of parallel strips, for the worst seed."""
     constant, rows = part()["K"].get(name), lines(name, "ours", nodes)
     strips = (nodes - 2) / 2
     return max(row["error"] for row in rows) * strips**2 / constant if constant and rows else None
@@ -61,7 +61,7 @@ def our(name, nodes, field="error"):
 
 
 def at_equal_nodes(name, row):
-    """The error of a peer with so many nodes as were asked for, by the rate at which errors fall."""
+    """Error of a peer, converted to the requested number of nodes by the rate at which errors fall."""
     rate = RATES["K" if name in part()["K"] else "B"]
     return row["error"] * (row["found"] / row["nodes"]) ** rate
 
@@ -72,49 +72,49 @@ def best_remeshed(name, nodes):
 
 
 def mmg_error(name, nodes):
-    """Error of MMG over ours."""
+    """Error of MMG, divided by ours."""
     row, own = best_remeshed(name, nodes), our(name, nodes)
     return at_equal_nodes(name, row) / own if row and own else None
 
 
 def mmg_time(name, nodes):
-    """Our time over that of all passes of MMG."""
+    """Our time, divided by the time of all passes of MMG."""
     row, own = best_remeshed(name, nodes), our(name, nodes, "seconds")
     return own / row["seconds"] if row and own else None
 
 
 def greedy_error(name, nodes):
-    """Error of pydelatin over ours."""
+    """Error of pydelatin, divided by ours."""
     rows, own = lines(name, "pydelatin", nodes), our(name, nodes)
     return at_equal_nodes(name, rows[0]) / own if rows and own else None
 
 
 def greedy_largest(name, nodes):
-    """Largest error of pydelatin over that of our mesh for the largest error."""
+    """Largest error of pydelatin, divided by the largest error of our mesh made for it."""
     rows, own = lines(name, "pydelatin", nodes), lines(name, "ours, max", nodes)
     return rows[0]["largest"] / own[0]["largest"] if rows and own else None
 
 
 def growth(name, nodes):
-    """Time over that for a quarter of the nodes."""
+    """Time, divided by the time for a quarter of the nodes."""
     large, small = (our(name, n, "seconds") for n in (nodes, nodes // 4))
     return large / small if large and small else None
 
 
 def invalid(name, nodes):
-    """How many of our meshes are not valid."""
+    """Number of our meshes that are not valid."""
     rows = lines(name, "ours", nodes)
     return sum(not row["valid"] for row in rows) if rows else None
 
 
 def unconfirmed(name, nodes):
-    """The error that approximate reports against the one by another quadrature, in per cent."""
+    """Difference between the error that `approximate` reports and an independent quadrature, in per cent."""
     rows = lines(name, "ours", nodes)
     return max(100 * abs(row["claimed"] / row["error"] - 1) for row in rows) if rows else None
 
 
 def tolerance(name, nodes):
-    """Nodes that a tolerance takes over the fewest that bisection finds."""
+    """Number of nodes for a tolerance, divided by the smallest number that bisection finds."""
     rows = lines(name, "tolerance", nodes)
     return rows[0]["found"] / rows[0]["bisected"] if rows else None
 
@@ -184,7 +184,7 @@ TABLE = {
 
 
 def everything():
-    """All of it, a row for each function and number of nodes."""
+    """All results, a row for each function and number of nodes."""
     rows = [
         (
             name,
@@ -255,7 +255,7 @@ def _error(name, who, nodes):
 
 
 def least(name, nodes):
-    """The limit for so many nodes: twice as many elements, or the best strips."""
+    """The limit for a number of nodes: with twice as many elements, or with the best strips."""
     found = part()
     if name in found["K"]:
         return ZIGZAG * found["K"][name] / ((nodes - 2) / 2) ** 2
@@ -275,7 +275,7 @@ def falls_short():
 
 
 def _bound_of_greedy(name, nodes):
-    """How far above the limit pydelatin is, which no mesh can exceed."""
+    """How far above the limit pydelatin is: a bound for every ratio to it."""
     if name not in part()["B"]:
         return ""
     row = lines(name, "pydelatin", nodes)[0]
@@ -288,7 +288,7 @@ def _bound_of_greedy(name, nodes):
 
 
 def _near_limit(name, nodes):
-    """What the theorem does not say about so many nodes."""
+    """How many functions are near the limit, which the theorem states for many elements only."""
     values = [efficiency(other, nodes) for other in names()]
     near = [value is not None and value <= NEAR for value in values]
     return (
@@ -298,7 +298,7 @@ def _near_limit(name, nodes):
 
 
 def _already_near(name, nodes):
-    """How near the limit MMG is itself."""
+    """How near the limit MMG comes, and how near ours."""
     if name not in part()["B"]:
         return ""
     row = best_remeshed(name, nodes)
@@ -309,7 +309,7 @@ def _already_near(name, nodes):
 
 
 def _largest(name, nodes):
-    """The errors themselves, also of our meshes for the mean square."""
+    """The errors, and the largest error of our meshes made for the L2 error."""
     peer, own = (lines(name, who, nodes)[0]["largest"] for who in ("pydelatin", "ours, max"))
     return (
         f"The errors are {peer:.3g} and {own:.3g}; meshes made for the $L_2$ error have "
@@ -318,7 +318,7 @@ def _largest(name, nodes):
 
 
 def _seconds(name, nodes):
-    """The times themselves."""
+    """Our time in seconds."""
     return f"It takes {our(name, nodes, 'seconds'):.3g} s."
 
 

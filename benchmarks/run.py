@@ -2,7 +2,7 @@
 
     python benchmarks/run.py --nodes 10000 100000 1000000 --sizes 100 400 --json benchmarks/results.json
 
-Each measure, and each function that is approximated, has a process of its own, in which
+Each measure, and each function that is approximated, has a separate process, in which
 ours and the peers take turns.  Results are printed and, with ``--json``, written to a file
 together with the machine and the versions; the page "Performance" of the report shows that
 file.  Without ``--nodes`` or without ``--sizes`` the file keeps what it has of that part.
@@ -63,7 +63,7 @@ def _version(name):
 
 
 def lines(measure, kind, n, runs):
-    """Results of one measure on one case, from a process of its own."""
+    """Results of one measure on one case, from a separate process."""
     command = [sys.executable, HERE / "meter.py", measure, kind, str(n), str(runs)]
     return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout)
 

@@ -28,7 +28,7 @@ for _ in range(20):
     meshlib.swapped(mesh, problems.SR2, order=order)
 print((time.perf_counter() - start) / 20)
 """
-# What numba takes for its own start: a compiled function that does nothing, from its cache.
+# Start of numba alone: a compiled function that does nothing, from the cache.
 FLOOR = """
 import time; start = time.perf_counter()
 import numba
@@ -47,7 +47,7 @@ SCRIPTS = {
 
 
 def measured(runs):
-    """Seconds of each, in turn; the first round fills the caches and does not count."""
+    """Seconds of each script, in rounds; the first round fills the caches and does not count."""
     rounds = [[float(_output(script)) for script in SCRIPTS.values()] for _ in range(runs + 1)][1:]
     return [
         {

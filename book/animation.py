@@ -1,6 +1,6 @@
 """Film the explorer for the README in the built book, as an animated WebP: ``python book/animation.py``.
 
-SR2 on the 81 nodes, swap by swap: the frames of swaps that were made, in equal steps.
+SR2 on the 81 nodes, swap by swap: frames at equal steps through the accepted swaps.
 """
 
 import shutil
@@ -18,7 +18,7 @@ PAGE = HERE.parent / "_build" / "html" / "notebooks" / "03-methods.html"
 TARGET = HERE / "_static" / "explorer.webp"
 SETTINGS = {"function": "SR2", "nodes": "81", "criterion": "jnd", "norm": 2}
 FRAMES = 15
-TICK, REST = 400, 2500  # milliseconds of a frame, and of the first and the last
+TICK, REST = 400, 2500  # milliseconds that a frame is shown; the first and the last
 
 
 def addresses():

@@ -1,4 +1,4 @@
-"""Run notebooks in place and keep only what is the same after every run.
+"""Run notebooks in place and keep only what does not differ from run to run.
 
     python book/execute.py notebooks/*.ipynb
 

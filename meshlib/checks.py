@@ -5,7 +5,7 @@ from numbers import Real
 
 import numpy as np
 
-from .errors import MeshError
+from .errors import CostError, InvalidInputError, InvalidMeshError, UnknownNameError
 
 MINIMUM_NODES = 3
 LARGEST_VALUE = 1e120  # squares of gradients of such values are still numbers, and of their inverses too
@@ -16,14 +16,19 @@ def node_array(nodes):
     """Nodes as an (N, 2) float64 array of finite coordinates, or a MeshError."""
     nodes = numeric(nodes, "nodes")
     if nodes.ndim != 2 or nodes.shape[1] != 2:
-        raise MeshError("shape", f"nodes have shape {nodes.shape}; give an (N, 2) array of x and y")
+        raise InvalidInputError("shape", f"nodes have shape {nodes.shape}; give an (N, 2) array of x and y")
     if len(nodes) < MINIMUM_NODES:
-        raise MeshError("shape", f"{len(nodes)} nodes make no element; give at least {MINIMUM_NODES}")
+        raise InvalidInputError(
+            "shape", f"{_counted(len(nodes), 'node')} cannot make an element; give at least {MINIMUM_NODES}"
+        )
     if not np.isfinite(nodes).all():
         bad = np.flatnonzero(~np.isfinite(nodes).all(axis=1))
         x, y = nodes[bad[0]]
-        raise MeshError(
-            "finite", f"node {bad[0]} has the coordinates ({x}, {y}); remove it or give finite numbers", bad
+        raise InvalidInputError(
+            "finite",
+            f"node {bad[0]} has the coordinates ({x}, {y}); remove it or give finite numbers",
+            bad,
+            len(bad),
         )
     return nodes
 
@@ -32,13 +37,15 @@ def element_array(elements):
     """Elements as a (T, 3) int32 array, or a MeshError."""
     elements = _numbers(elements, "elements", 3, "a (T, 3) array of node numbers")
     if not len(elements):
-        raise MeshError("shape", "there are no elements; give at least one")
+        raise InvalidInputError("shape", "there are no elements; give at least one")
     if elements.max() > LARGEST_NUMBER:
-        t, k = np.argwhere(elements > LARGEST_NUMBER)[0]
-        raise MeshError(
+        bad = np.argwhere(elements > LARGEST_NUMBER)
+        t, k = bad[0]
+        raise InvalidMeshError(
             "index range",
             f"element {t} names node {elements[t, k]}; the largest number is {LARGEST_NUMBER}",
-            (t,),
+            bad[:, 0],
+            len(bad),
         )
     return elements.astype(np.int32)
 
@@ -63,21 +70,27 @@ def each_edge_once(numbers, edges):
     again = np.flatnonzero(np.diff(numbers[order]) == 0)
     if again.size:
         (i, j), first, second = edges[numbers[order[again[0]]]], order[again[0]], order[again[0] + 1]
-        raise MeshError(
+        raise InvalidMeshError(
             "edge",
             f"nodes {i} and {j} are given twice, in rows {first} and {second}; keep one of them",
-            (i, j),
+            edges[numbers[order[again]]].ravel(),
+            again.size,
         )
     if missing.size:
         i, j = edges[missing[0]]
-        raise MeshError("edge", f"nodes {i} and {j} are joined by an edge that is not given; add it", (i, j))
+        raise InvalidMeshError(
+            "edge",
+            f"nodes {i} and {j} are joined by an edge that is not given; add it",
+            edges[missing].ravel(),
+            missing.size,
+        )
 
 
 def marked(array, what):
     """Three columns, the third a marker, or a MeshError."""
     array = np.asarray(array)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise MeshError(
+        raise InvalidInputError(
             "shape", f"{what} have shape {array.shape}; give three columns, the third the boundary marker"
         )
     return array
@@ -88,11 +101,12 @@ def markers(what, given, derived):
     wrong = np.flatnonzero((given != 0) != derived)
     if wrong.size:
         place = "on the boundary" if derived[wrong[0]] else "inside"
-        raise MeshError(
+        raise InvalidMeshError(
             "marker",
             f"{what} {wrong[0]} is marked {given[wrong[0]]:g} but lies {place}; "
             "mark 1 on the boundary and 0 inside",
             wrong,
+            wrong.size,
         )
 
 
@@ -104,9 +118,14 @@ def distinct_nodes(nodes):
     order = np.lexsort((np.arange(len(nodes)), nodes[:, 1], nodes[:, 0]))
     same = np.flatnonzero((np.diff(nodes[order], axis=0) == 0).all(axis=1))
     if same.size:
-        i, j = order[same[0]], order[same[0] + 1]
-        x, y = (float(v) for v in nodes[i])
-        raise MeshError("duplicate", f"nodes {i} and {j} coincide at ({x}, {y}); keep one of them", (i, j))
+        pairs = np.column_stack([order[same], order[same + 1]])
+        (i, j), (x, y) = pairs[0], (float(v) for v in nodes[order[same[0]]])
+        raise InvalidMeshError(
+            "duplicate",
+            f"nodes {i} and {j} coincide at ({x}, {y}); keep one of them",
+            pairs.ravel(),
+            len(pairs),
+        )
 
 
 def unnamed(elements, n_nodes):
@@ -125,17 +144,20 @@ def nodal_values(mesh, values):
         values = values(*mesh.nodes.T)
     values = numeric(values, "values")
     if values.shape != (mesh.n_nodes,):
-        raise MeshError(
+        raise InvalidInputError(
             "shape", f"values have shape {values.shape}; give one value for each of the {mesh.n_nodes} nodes"
         )
     bad = np.flatnonzero(~np.isfinite(values))
     if bad.size:
-        raise MeshError(
-            "finite", f"the value at node {bad[0]} is {values[bad[0]]}; fill it in or remove the node", bad
+        raise InvalidInputError(
+            "finite",
+            f"the value at node {bad[0]} is {values[bad[0]]}; fill it in or remove the node",
+            bad,
+            bad.size,
         )
     size = np.abs(values).max()
     if size > LARGEST_VALUE or 0 < size < 1 / LARGEST_VALUE:
-        raise MeshError(
+        raise InvalidInputError(
             "range", f"the largest value is {size:g}, whose square is out of range; measure u in another unit"
         )
     return values
@@ -145,7 +167,7 @@ def function_values(function, x, y):
     """Values of a vectorised function, finite and of the shape of x and y, or a MeshError."""
     found = np.asarray(function(x, y))
     if found.shape != x.shape or found.dtype.kind not in "fiu":
-        raise MeshError(
+        raise InvalidInputError(
             "shape",
             f"the function returned shape {found.shape} and dtype {found.dtype} "
             f"for points of shape {x.shape}; return one real number for each",
@@ -153,7 +175,7 @@ def function_values(function, x, y):
     if not np.isfinite(found).all():
         k = np.flatnonzero(~np.isfinite(found).ravel())[0]
         at = f"({x.ravel()[k]}, {y.ravel()[k]})"
-        raise MeshError(
+        raise InvalidInputError(
             "finite", f"the function is {found.ravel()[k]} at {at}; it must be finite in the whole domain"
         )
     return found
@@ -163,18 +185,19 @@ def cost_vector(costs, size, what):
     """What a criterion returned as (size,) floats of at least 0, or a MeshError."""
     costs = np.asarray(costs, dtype=float)
     if costs.shape != (size,):
-        raise MeshError(
+        raise InvalidInputError(
             "shape",
             f"the criterion returned costs of shape {costs.shape} "
             f"for {size} {what}s; return one number for each",
         )
     bad = np.flatnonzero(~(np.isfinite(costs) & (costs >= 0)))
     if bad.size:
-        raise MeshError(
+        raise CostError(
             "cost",
             f"the cost of {what} {bad[0]} is {costs[bad[0]]}; "
             "a criterion must return finite numbers of at least 0",
             bad,
+            bad.size,
         )
     return costs
 
@@ -184,7 +207,7 @@ def a_mesh(mesh):
     if hasattr(mesh, "_checked"):
         return mesh._checked()
     hint = "take its .mesh" if hasattr(mesh, "mesh") else "make a meshlib.Mesh or use meshlib.delaunay"
-    raise MeshError("type", f"a mesh is needed, this is a {type(mesh).__name__}; {hint}")
+    raise InvalidInputError("type", f"a mesh is needed, this is a {type(mesh).__name__}; {hint}")
 
 
 def fraction(value):
@@ -195,21 +218,23 @@ def fraction(value):
 def number(value, what, least, above, remedy):
     """A real number with least <= number < above, or a MeshError."""
     if not (isinstance(value, Real) and least <= value < above):
-        raise MeshError("range", f"{what} is {value!r}; give {remedy}")
+        raise InvalidInputError("range", f"{what} is {value!r}; give {remedy}")
     return float(value)
 
 
 def whole(value, least, what):
     """A whole number of at least ``least``, or a MeshError."""
     if not (isinstance(value, (int, np.integer)) and value >= least):
-        raise MeshError("range", f"{what} is {value!r}; give a whole number from {least}")
+        raise InvalidInputError("range", f"{what} is {value!r}; give a whole number of at least {least}")
     return int(value)
 
 
 def workers(value):
     """A number of processes, -1 for one on each core, or a MeshError."""
     if not (isinstance(value, (int, np.integer)) and value >= -1 and value != 0):
-        raise MeshError("range", f"workers is {value!r}; give a whole number from 1, or -1 for all cores")
+        raise InvalidInputError(
+            "range", f"workers is {value!r}; give a whole number of at least 1, or -1 for all cores"
+        )
     return int(value)
 
 
@@ -221,7 +246,7 @@ def choice(value, options, what):
     near = difflib.get_close_matches(value.lower(), by_text, n=1) if isinstance(value, str) else ()
     hint = f"; did you mean {by_text[near[0]]!r}?" if near else ""
     listed = ", ".join(repr(o) for o in options)
-    raise MeshError("unknown", f"{what} {value!r} is not known{hint} (known: {listed})")
+    raise UnknownNameError("unknown", f"{what} {value!r} is not known{hint} (known: {listed})")
 
 
 def permutation(order, size, what="edge"):
@@ -230,7 +255,7 @@ def permutation(order, size, what="edge"):
         return np.arange(size)
     order = _regular(order, "order")
     if order.shape != (size,) or order.dtype.kind not in "iu":
-        raise MeshError(
+        raise InvalidInputError(
             "shape",
             f"order has shape {order.shape} and dtype {order.dtype}; "
             f"give the {size} {what} numbers, each once",
@@ -239,24 +264,33 @@ def permutation(order, size, what="edge"):
     named[order[(order >= 0) & (order < size)]] = True
     missing = np.flatnonzero(~named)
     if missing.size:
-        raise MeshError("order", f"{what} {missing[0]} is not in order; name each {what} once", missing)
+        raise InvalidInputError(
+            "order", f"{what} {missing[0]} is not in order; name each {what} once", missing, missing.size
+        )
     return order.astype(np.int64)
+
+
+def _counted(number, noun):
+    """A number with its noun."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def _regular(array, what):
     try:
         return array.astype(float).filled(np.nan) if np.ma.is_masked(array) else np.asarray(array)
     except ValueError:
-        raise MeshError("shape", f"the rows of {what} differ in length; give a regular array") from None
+        raise InvalidInputError(
+            "shape", f"the rows of {what} differ in length; give a regular array"
+        ) from None
 
 
 def _numbers(array, what, columns, shape):
     """A table of whole numbers with that many columns."""
     array = _regular(array, what)
     if array.ndim != 2 or array.shape[1] != columns:
-        raise MeshError("shape", f"{what} have shape {array.shape}; give {shape}")
+        raise InvalidInputError("shape", f"{what} have shape {array.shape}; give {shape}")
     if array.dtype.kind not in "iu" and array.size:
-        raise MeshError("dtype", f"{what} have dtype {array.dtype}; give whole numbers")
+        raise InvalidInputError("dtype", f"{what} have dtype {array.dtype}; give whole numbers")
     return array
 
 
@@ -264,5 +298,5 @@ def numeric(array, what):
     """Real numbers as a float64 array, or a MeshError."""
     array = _regular(array, what)
     if array.dtype.kind not in "fiu":
-        raise MeshError("dtype", f"{what} have dtype {array.dtype}; give real numbers")
+        raise InvalidInputError("dtype", f"{what} have dtype {array.dtype}; give real numbers")
     return array.astype(np.float64)

@@ -15,7 +15,7 @@ returns goes, with the curve, into `deviation` and `domain_mesh`.
 import numpy as np
 
 from . import checks
-from .errors import MeshError
+from .errors import InvalidInputError, InvalidMeshError
 from .geometry.polygons import inside, lattice_inside
 from .mesh.delaunay import delaunay
 from .mesh.mesh import Mesh
@@ -56,13 +56,14 @@ def equidistributed(density, n):
     density = checks.numeric(density, "density")
     bad = np.flatnonzero(~(np.isfinite(density) & (density >= 0)))
     if bad.size:
-        raise MeshError(
+        raise InvalidInputError(
             "range",
             f"the density of sample {bad[0]} is {density[bad[0]]}; give finite numbers of at least 0",
             bad,
+            bad.size,
         )
     if not density.any():
-        raise MeshError(
+        raise InvalidInputError(
             "range",
             'the density is 0 everywhere, so that no place is better than another; use density="length"',
         )
@@ -206,7 +207,7 @@ def domain_mesh(curve, parameters, spacing=None):
     ring = _points(curve, _ascending(curve, parameters) % 1).T
     edges = np.roll(ring, -1, axis=0) - ring
     if (ring[:, 0] * edges[:, 1] - ring[:, 1] * edges[:, 0]).sum() <= 0:
-        raise MeshError("orientation", "the curve goes round clockwise; reverse its parameter")
+        raise InvalidMeshError("orientation", "the curve goes round clockwise; reverse its parameter")
     spacing = np.hypot(*edges.T).mean() if spacing is None else spacing
     spacing = checks.number(spacing, "spacing", np.nextafter(0, 1), np.inf, "a finite length above 0")
     whole = delaunay(np.concatenate([ring, lattice_inside(ring, spacing)]))
@@ -219,14 +220,14 @@ def _ascending(curve, parameters):
     _sampled(curve)
     t = checks.numeric(parameters, "parameters")
     if t.ndim != 1 or len(t) < SMALLEST_RING:
-        raise MeshError(
+        raise InvalidInputError(
             "shape",
             f"parameters have shape {t.shape}; give one number for each of at least {SMALLEST_RING} nodes",
         )
     bad = np.flatnonzero(~(np.diff(t, append=t[0] + 1) > 0))
     if bad.size:
         k = (bad[0] + 1) % len(t)
-        raise MeshError(
+        raise InvalidInputError(
             "order",
             f"parameter {k} is {t[k]:g}, which does not follow {t[bad[0]]:g}; "
             "give them ascending, within one period",
@@ -241,7 +242,7 @@ def _refuse_missing(mesh, n):
     known = np.isin(pairs @ [mesh.n_nodes, 1], mesh.edges.astype(np.int64) @ [mesh.n_nodes, 1])
     if not known.all():
         i, j = pairs[~known][0]
-        raise MeshError(
+        raise InvalidInputError(
             "boundary",
             f"boundary nodes {i} and {j} are not joined in the Delaunay mesh; "
             "give more boundary nodes or a larger spacing",
@@ -256,7 +257,7 @@ def _sampled(curve):
     """Points (2, SAMPLES) of a closed curve at equal steps of its parameter, or a MeshError."""
     points = _points(curve, np.linspace(0, 1, SAMPLES + 1))
     if np.abs(points[:, -1] - points[:, 0]).max() > CLOSED * np.ptp(points, axis=1).max():
-        raise MeshError(
+        raise InvalidInputError(
             "closed",
             f"the curve is at {_text(points[:, 0])} for t = 0 and at "
             f"{_text(points[:, -1])} for t = 1; give a closed one",
@@ -267,12 +268,12 @@ def _sampled(curve):
 def _points(curve, t):
     """The arrays x and y, stacked, at parameters of any shape, or a MeshError."""
     if not callable(curve):
-        raise MeshError(
+        raise InvalidInputError(
             "type", f"the curve is a {type(curve).__name__}; give a function of t that returns x and y"
         )
     points = checks.numeric(np.stack(np.broadcast_arrays(*curve(t))), "points of the curve")
     if points.shape != (2, *t.shape) or not np.isfinite(points).all():
-        raise MeshError("finite", "the curve must return finite x and y for every t from 0 to 1")
+        raise InvalidInputError("finite", "the curve must return finite x and y for every t from 0 to 1")
     return points
 
 
@@ -312,6 +313,8 @@ def _of_data(points, speed, function):
     """|u_ss|^(2/5) ds/dt, with u_ss = (u_tt - u_t speed_t / speed) / speed^2."""
     u = checks.numeric(function(*points), "values")
     if u.shape != speed.shape or not np.isfinite(u).all():
-        raise MeshError("finite", "the function must return one finite value for each point of the curve")
+        raise InvalidInputError(
+            "finite", "the function must return one finite value for each point of the curve"
+        )
     u_ss = (_second(u) - _derivative(u) * _derivative(speed) / speed) / speed**2
     return _above_noise(u_ss, u / speed**2) ** DATA_POWER * speed

@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import checks
-from .errors import MeshError, missing_extra
+from .errors import InvalidInputError, missing_extra
 from .mesh.mesh import Mesh
 
 
@@ -62,7 +62,7 @@ def read(path):
     found = _meshio().read(path)
     triangles = found.cells_dict.get("triangle")
     if triangles is None:
-        raise MeshError("shape", f"{path} holds no triangles; export a triangular mesh")
+        raise InvalidInputError("shape", f"{path} holds no triangles; export a triangular mesh")
     return Mesh(found.points[:, :2], triangles).validate(), dict(found.point_data)
 
 

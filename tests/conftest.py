@@ -43,7 +43,7 @@ def rng():
     return np.random.default_rng(2001)
 
 
-@pytest.fixture(params=problems.names)
+@pytest.fixture(params=problems.names())
 def start(request):
     """Each start mesh of the thesis in turn."""
     return problems.mesh(request.param)

@@ -49,7 +49,7 @@ def hull_area(nodes):
     """Area of the convex hull, by Andrew's monotone chain, as a Fraction."""
     points = sorted(map(rational, nodes))
     ring = _chain(points)[:-1] + _chain(points[::-1])[:-1]
-    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1])) / 2
+    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)) / 2
 
 
 def _chain(points):

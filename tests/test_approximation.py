@@ -1,9 +1,13 @@
 """Meshes made for a known function: what must hold after every step, and how near the limit they come."""
 
+import inspect
 import os
+import re
 import signal
 import subprocess
 import sys
+from dataclasses import FrozenInstanceError, fields, replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,14 +17,18 @@ from hypothesis import strategies as st
 from support import lattice
 
 from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems, refined
-from meshlib.approximation import node_count, samples, strategy
-from meshlib.approximation.division import bisect, divide
-from meshlib.approximation.error_integrals import Misfit, half_slopes, powers, rule
-from meshlib.approximation.moves import _Sweep, move
+from meshlib.approximation import node_count, samples, settings, strategy
+from meshlib.approximation.approximate import UNIT_SQUARE, Task
+from meshlib.approximation.collapse import collapsed, settled_on_boundary
+from meshlib.approximation.division import bisected, divided
+from meshlib.approximation.error_integrals import Counted, Misfit, half_slopes, powers, rule
+from meshlib.approximation.insertion import inserted
+from meshlib.approximation.moves import _Sweep, moved
 from meshlib.approximation.one_direction import in_turn
 from meshlib.approximation.patches import _curvature
+from meshlib.approximation.settings import NodeCount, OneDirection, Rounds, Settings
 from meshlib.approximation.start_mesh import regular
-from meshlib.approximation.swaps import swap
+from meshlib.approximation.swaps import swapped
 from meshlib.approximation.working_mesh import Draft
 from meshlib.mesh.boundary_sides import CORNER, INTERIOR, sides_of
 from meshlib.mesh.quality import angles
@@ -49,12 +57,12 @@ def scattered(rng, n):
 
 def finely(u_h):
     """The same function on elements a quarter of the size, whose quadrature sees more."""
-    mesh = refined(u_h.mesh, u_h.values, "abn", 1.0, split="red-green").mesh
+    mesh = refined(u_h.mesh, u_h.values, "abn", fraction=1.0, split="red-green").mesh
     return Interpolant(mesh, u_h(*mesh.nodes.T))
 
 
 def draft_of(function, mesh):
-    return Draft(Misfit(function, 1 / 40), mesh)
+    return Draft.of(Misfit(Counted(function), 1 / 40), mesh)
 
 
 def objective(draft):
@@ -67,33 +75,88 @@ def objective(draft):
 @pytest.mark.parametrize("domain", ["square", "ring"])
 def test_every_step_leaves_a_valid_mesh_that_interpolates(domain, ring, rng):
     mesh = ring if domain == "ring" else delaunay(scattered(rng, 20))
-    draft, seen = draft_of(front, mesh), []
-
-    def note(step):
+    seen = set()
+    for step, draft in strategy.strategy(draft_of(front, mesh), 150):
         draft.mesh.validate()
         assert draft.mesh.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
         assert np.array_equal(draft.values, front(*draft.nodes.T))
         u_h = Interpolant(draft.mesh, draft.values)
-        assert draft.error == pytest.approx(finely(u_h).l2_error(front, "exact", degree=12), rel=5e-3)
-        seen.append(step)
-
-    strategy.strategy(draft, 150, note)
+        assert draft.error == pytest.approx(finely(u_h).l2_error(front, rule="exact", degree=12), rel=5e-3)
+        seen.add(step)
     assert draft.n_nodes == 150
-    assert set(seen) == {"grown", "moved", "renewed"}
+    assert seen == {"grown", "moved", "renewed"}
+
+
+OPERATIONS = [
+    swapped,
+    moved,
+    divided,
+    settled_on_boundary,
+    strategy.improved,
+    lambda draft: inserted(draft, 10),
+    lambda draft: bisected(draft, 10),
+    lambda draft: collapsed(draft, 0.2),
+    lambda draft: draft.measured(4),
+    lambda draft: draft.measured_finely(2),
+]
+
+
+def contents(thing):
+    """All that a draft holds, down to arrays and numbers, by the way to it."""
+    if hasattr(thing, "__dict__") and not isinstance(thing, (type, Counted)):
+        return {(k, *way): v for k, part in vars(thing).items() for way, v in contents(part).items()}
+    return {(): np.array(thing) if isinstance(thing, np.ndarray) else thing}
+
+
+@pytest.mark.parametrize("operation", OPERATIONS)
+def test_no_operation_changes_what_the_draft_before_it_holds(operation, rng):
+    """So a draft that is kept is a complete snapshot, whatever attributes it may have one day."""
+    nodes = np.concatenate([scattered(rng, 80), [[0.5, 0.02]]])  # the last may be put on the boundary
+    draft = draft_of(lambda x, y: front(x, y) / 8, delaunay(nodes))
+    before = contents(draft)
+    after = operation(draft)
+    held = contents(draft)
+    assert {way[0] for way in before} == {field.name for field in fields(Draft)}
+    assert all(np.array_equal(held[way], value) for way, value in before.items())
+    assert not all(np.array_equal(contents(after).get(way), value) for way, value in before.items())
+
+
+def test_a_draft_is_read_only(rng):
+    draft = draft_of(front, delaunay(scattered(rng, 8)))
+    with pytest.raises(FrozenInstanceError):
+        draft.values = draft.values + 1
+    arrays = [array for array in vars(draft).values() if isinstance(array, np.ndarray)]
+    assert len(arrays) == 4 and not any(array.flags.writeable for array in arrays)
+
+
+def test_a_function_may_return_an_array_that_it_keeps():
+    mesh = delaunay(lattice(3, 3) / 3)
+    kept = front(*mesh.nodes.T)
+    Draft.of(Misfit(Counted(lambda x, y: kept if len(x) == 16 else front(x, y)), 1 / 40), mesh)
+    assert kept.flags.writeable
+
+
+def test_rounds_of_renewal_go_on_with_the_best_draft_met(rng):
+    draft = draft_of(front, delaunay(scattered(rng, 80)))
+    met, rounds = [draft], strategy.renewed_in_rounds(draft, draft.n_nodes, 4)
+    with pytest.raises(StopIteration) as end:
+        while True:
+            step, draft = next(rounds)
+            met += [draft] if step == "moved" else []
+    assert len(met) == 5 and {draft.n_nodes for draft in met} == {96}
+    assert end.value.value is min(met, key=objective)
 
 
 def test_moves_and_swaps_never_raise_the_error(rng):
     draft = draft_of(front, delaunay(scattered(rng, 80)))
-    before = objective(draft)
-    for change in (swap, move, swap, move, swap):
-        assert change(draft) > 0
-        assert objective(draft) < before
-        before = objective(draft)
-    assert swap(draft) == 0
+    for change in (swapped, moved, swapped, moved, swapped):
+        before, draft = draft, change(draft)
+        assert objective(draft) < objective(before)
+    assert swapped(draft).mesh is draft.mesh
 
 
 def test_corners_stay_and_holes_stay_open(ring):
-    found = approximate(front, 120, domain=ring)
+    found = approximate(front, nodes=120, domain=ring)
     corners = ring.nodes[sides_of(ring).of_node == CORNER]
     assert len(corners) == 8
     assert (np.abs(found.mesh.nodes[:, None] - corners).sum(axis=2).min(axis=0) == 0).all()
@@ -103,7 +166,7 @@ def test_corners_stay_and_holes_stay_open(ring):
 
 
 def test_the_same_seed_gives_the_same_mesh_and_another_another():
-    one, again, other = (approximate(front, 50, seed=seed) for seed in (0, 0, 1))
+    one, again, other = (approximate(front, nodes=50, seed=seed) for seed in (0, 0, 1))
     assert one.mesh.equals(again.mesh) and np.array_equal(one.history, again.history)
     assert not one.mesh.equals(other.mesh)
 
@@ -113,7 +176,7 @@ import numpy as np
 from meshlib import approximate, problems
 for norm in ("L2", "max"):
     for name in ("franke", "DD1"):
-        found = approximate(problems.functions[name], 60, norm=norm).mesh
+        found = approximate(problems.functions[name], nodes=60, norm=norm).mesh
         print(found.nodes.tobytes().hex(), found.elements.tobytes().hex())
 """
 
@@ -135,48 +198,57 @@ def test_processors_that_round_differently_give_the_same_mesh():
 
 
 def test_a_plane_costs_nothing():
-    found = approximate(lambda x, y: 3 * x - 2 * y + 1, 30)
+    found = approximate(lambda x, y: 3 * x - 2 * y + 1, nodes=30)
     assert found.error < 1e-14 and found.mesh.validate().n_nodes == 30
 
 
 def test_few_nodes():
-    assert approximate(front, 4).mesh.counts == (4, 5, 2)
-    assert approximate(front, 3, domain=delaunay([[0, 0], [1, 0], [0, 1]])).mesh.counts == (3, 3, 1)
-    assert approximate(front, 5).mesh.n_nodes == 5
+    assert approximate(front, nodes=4).mesh.counts == (4, 5, 2)
+    assert approximate(front, nodes=3, domain=delaunay([[0, 0], [1, 0], [0, 1]])).mesh.counts == (3, 3, 1)
+    assert approximate(front, nodes=5).mesh.n_nodes == 5
 
 
 def test_a_start_mesh_with_too_many_nodes_loses_some(rng):
     start = delaunay(scattered(rng, 60))
-    assert approximate(front, 40, domain=start).mesh.validate().n_nodes == 40
+    assert approximate(front, nodes=40, domain=start).mesh.validate().n_nodes == 40
 
 
 @pytest.mark.parametrize("function", [front, problems.functions["DD1"]])
 @pytest.mark.parametrize("angle", [10, 20, 30])
 def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
-    found = approximate(function, 120, min_angle=angle)
+    found = approximate(function, nodes=120, min_angle=angle)
     assert np.degrees(angles(found.mesh.corners).min()) >= angle - 1e-9
     assert found.mesh.n_nodes == 120
 
 
 def test_bisections_leave_angles_as_they_were():
-    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they are made."""
-    draft = Draft(Misfit(front, 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
+    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they lie."""
+    draft = Draft.of(Misfit(Counted(front), 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
     while draft.n_nodes < 200:
-        before = draft.n_nodes
-        assert 0 < bisect(draft, 200 - before) == draft.n_nodes - before
+        before, draft = draft, bisected(draft, 200 - draft.n_nodes)
+        assert before.n_nodes < draft.n_nodes <= 200
     draft.mesh.validate()
     assert np.degrees(angles(draft.mesh.corners)).min() == pytest.approx(45)
 
 
 def test_an_element_that_would_be_refused_has_an_error_where_a_mesh_has_it():
     corners, values = np.array([[[0.0, 0], [1, 0], [0.5, 1e-6]]]), np.zeros((1, 3))
-    misfit = Misfit(lambda x, y: 1 + 0 * x, 1 / 40)
+    misfit = Misfit(Counted(lambda x, y: 1 + 0 * x), 1 / 40)
     assert misfit.on_elements(corners, values) == [np.inf]
     assert misfit.on_elements(corners, values, is_new=False) == pytest.approx(5e-7)
 
 
+def test_another_power_or_a_finer_quadrature_leaves_the_misfit_of_others_as_it_is():
+    misfit = Misfit(Counted(lambda x, y: front(x, y) / 8), 1 / 40)
+    draft = Draft.of(misfit, delaunay(lattice(3, 3) / 3))
+    other = draft.measured(4).measured_finely(2)
+    assert (other.misfit.squarings, other.misfit.spacing) == (4, 1 / 80) and other.misfit.unit < 1
+    assert draft.misfit is misfit and misfit == Misfit(misfit.function, 1 / 40)
+    assert np.array_equal(draft.error_of(draft.elements), draft.errors)
+
+
 def test_the_history_tells_every_step():
-    found = approximate(front, 100)
+    found = approximate(front, nodes=100)
     last = found.history[-1]
     assert (last["nodes"], last["elements"], last["error"]) == (100, found.mesh.n_elements, found.error)
     assert last["evaluations"] == found.evaluations
@@ -199,30 +271,30 @@ def test_the_history_tells_every_step():
 )
 def test_the_error_is_near_the_limit(function, limit, most):
     """Error times elements over B: 1 is what no mesh of very many elements is much below."""
-    found = approximate(function, 300)
-    error = found.interpolant.l2_error(function, "exact", degree=12)
+    found = approximate(function, nodes=300)
+    error = found.interpolant.l2_error(function, rule="exact", degree=12)
     assert 0.85 < error * found.mesh.n_elements / limit < most
 
 
 @pytest.mark.parametrize("name, strips", [("SR1", 0.0966), ("SR2", 0.4347)])
 def test_a_function_of_one_direction_gets_three_quarters_of_the_error_of_strips(name, strips):
     """Parallel strips give the constant over the square of their number, here 199."""
-    found = approximate(problems.functions[name], 400)
+    found = approximate(problems.functions[name], nodes=400)
     assert found.mesh.validate().boundary_nodes.all()
     assert found.error / (strips / 199**2) == pytest.approx(0.75, abs=0.01)
 
 
 def test_nodes_in_turn_in_figures():
-    """Of u = x^2, elements over two spacings h have d = 2 (h^2, h^2, 4 h^2), those of strips d = 2 (0, 4h^2, 4h^2).
+    """Errors of u = x^2 are as the roots of 54 and 96, of sum d^2 + (sum d)^2.
 
-    The errors are as the roots of sum d^2 + (sum d)^2: of 54 and 96.
+    Elements over two spacings h have d = 2 (h^2, h^2, 4 h^2), those of strips d = 2 (0, 4h^2, 4h^2).
     """
 
     def u(x, y):
         return x**2
 
-    mesh = in_turn(u, np.zeros(2), np.ones(2), 402)
-    error = Interpolant(mesh, u).l2_error(u, "exact")
+    mesh = in_turn(u, np.zeros(2), np.ones(2), 402, 2, OneDirection())
+    error = Interpolant(mesh, u).l2_error(u, rule="exact")
     assert error / (2 * np.sqrt(6 / 720) / 200**2) == pytest.approx(0.75, rel=0.02)
 
 
@@ -231,14 +303,16 @@ def test_nodes_in_turn_in_figures():
 @pytest.mark.parametrize("nodes", [12, 13, 60])
 def test_nodes_in_turn_in_any_direction_and_rectangle(direction, low, high, nodes):
     low, high = np.array(low, float), np.array(high, float)
-    mesh = in_turn(lambda x, y: np.cos(direction[0] * x + direction[1] * y), low, high, nodes)
+    mesh = in_turn(
+        lambda x, y: np.cos(direction[0] * x + direction[1] * y), low, high, nodes, 2, OneDirection()
+    )
     assert mesh.validate().counts == (nodes, 2 * nodes - 3, nodes - 2)
     assert mesh.domain_area == pytest.approx(np.prod(high - low))
 
 
 @pytest.mark.parametrize("function", [front, lambda x, y: x + 2 * y, lambda x, y: 0 * x, lambda x, y: x * y])
 def test_other_functions_and_planes_get_no_such_mesh(function):
-    assert in_turn(function, np.zeros(2), np.ones(2), 50) is None
+    assert in_turn(function, np.zeros(2), np.ones(2), 50, 2, OneDirection()) is None
 
 
 @pytest.mark.parametrize("nodes", [155, 160, 165])
@@ -248,13 +322,13 @@ def test_a_little_more_or_fewer_nodes_make_little_difference(nodes):
     def circle(x, y):
         return np.tanh(20 * (np.hypot(x - 0.5, y - 0.5) - 0.3))
 
-    found = approximate(circle, nodes)
+    found = approximate(circle, nodes=nodes)
     assert 0.9 < found.error * found.mesh.n_elements / 3.53 < 1.1
 
 
 @pytest.mark.parametrize("function", [front, FRANKE, problems.functions["SR2"]])
 def test_the_largest_error_is_lower_where_it_is_asked_for(function):
-    mean, largest = (approximate(function, 100, norm=norm) for norm in ("L2", "max"))
+    mean, largest = (approximate(function, nodes=100, norm=norm) for norm in ("L2", "max"))
     x, y = np.meshgrid(*[np.linspace(0, 1, 2001)] * 2)
     worst = [np.abs(found.interpolant(x, y) - function(x, y)).max() for found in (mean, largest)]
     assert worst[1] < 0.95 * worst[0]
@@ -263,7 +337,7 @@ def test_the_largest_error_is_lower_where_it_is_asked_for(function):
 
 
 def test_the_largest_error_of_a_function_of_one_direction_is_lower_where_it_is_asked_for():
-    mean, largest = (approximate(problems.functions["SR2"], 60, norm=norm) for norm in ("L2", "max"))
+    mean, largest = (approximate(problems.functions["SR2"], nodes=60, norm=norm) for norm in ("L2", "max"))
     x, y = np.meshgrid(*[np.linspace(0, 1, 801)] * 2)
     worst = [
         np.abs(found.interpolant(x, y) - problems.functions["SR2"](x, y)).max() for found in (mean, largest)
@@ -274,15 +348,15 @@ def test_the_largest_error_of_a_function_of_one_direction_is_lower_where_it_is_a
 @pytest.mark.parametrize("factor", [2.0**-80, 2.0**80])
 def test_the_largest_error_of_large_and_small_functions(factor):
     """Its sixteenth power is no number any more."""
-    ones, others = (approximate(lambda x, y, f=f: f * front(x, y), 60, norm="max") for f in (1, factor))
+    ones, others = (approximate(lambda x, y, f=f: f * front(x, y), nodes=60, norm="max") for f in (1, factor))
     assert others.mesh.equals(ones.mesh) and others.error == factor * ones.error
     assert np.array_equal(others.values, factor * ones.values)
 
 
 @pytest.mark.parametrize("norm, error", [("L2", 0.21082 / 162), ("max", 1 / 324)])
 def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
-    """Of x^2 - y^2 with spacings h: an L2 error of h^2 / sqrt(90), the limit itself, and a largest one of h^2 / 4."""
-    found = approximate(problems.functions["hyperbolic"], 100, norm=norm)
+    """With spacings h, x^2 - y^2 has an L2 error of h^2 / sqrt(90), the limit, and a largest of h^2 / 4."""
+    found = approximate(problems.functions["hyperbolic"], nodes=100, norm=norm)
     assert found.mesh.validate().counts == (100, 261, 162)
     assert found.error == pytest.approx(error, rel=1e-4)
     assert "compared" in found.history["step"]
@@ -291,7 +365,7 @@ def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
 @pytest.mark.parametrize("function", [front, problems.functions["DD1"]])
 def test_the_error_is_confirmed_by_another_quadrature(function):
     """On elements divided until their part has settled; DD1 has kinks."""
-    found = approximate(function, 100)
+    found = approximate(function, nodes=100)
     assert found.error == pytest.approx(settled_error(found.mesh, function), rel=1e-3)
     assert found.history["step"][-1] == "measured"
 
@@ -299,9 +373,12 @@ def test_the_error_is_confirmed_by_another_quadrature(function):
 def test_a_lattice_with_smaller_angles_than_allowed_is_not_taken():
     """Of cells twice as high as wide it would have angles of 26.6 degrees."""
     assert regular(((0, 0), (1, 4)), 6).counts == (6, 9, 4)
-    found = approximate(lambda x, y: 4 * x * x - y * y, 6, ((0, 0), (1, 4)), min_angle=30)
+    found = approximate(lambda x, y: 4 * x * x - y * y, nodes=6, domain=((0, 0), (1, 4)), min_angle=30)
     assert "compared" not in found.history["step"]
-    assert "compared" in approximate(lambda x, y: 4 * x * x - y * y, 6, ((0, 0), (1, 4))).history["step"]
+    assert (
+        "compared"
+        in approximate(lambda x, y: 4 * x * x - y * y, nodes=6, domain=((0, 0), (1, 4))).history["step"]
+    )
 
 
 def test_a_lattice_fits_its_rectangle():
@@ -316,7 +393,7 @@ def test_divided_elements_are_a_valid_mesh_with_a_smaller_error(seed):
     rng = np.random.default_rng(seed)
     draft = draft_of(lambda x, y: np.exp(x + y), delaunay(scattered(rng, 12)))
     nodes, edges, before = draft.n_nodes, draft.mesh.n_edges, draft.error
-    assert divide(draft)
+    draft = divided(draft)
     assert nodes < draft.mesh.validate().n_nodes <= nodes + edges
     assert draft.error < before and draft.mesh.domain_area == pytest.approx(1)
     assert np.array_equal(draft.side != INTERIOR, draft.mesh.boundary_nodes)
@@ -327,7 +404,7 @@ def test_a_mesh_without_an_error_is_not_divided_but_once(rng):
     mesh = delaunay(lattice(8, 8) / 8)
     draft = draft_of(lambda x, y: np.maximum(x - 0.5, 0) ** 2, mesh)
     flat = mesh.nodes[mesh.elements].max(axis=1)[:, 0] <= 0.5
-    divide(draft)
+    draft = divided(draft)
     left = draft.mesh.nodes[draft.mesh.elements].max(axis=1)[:, 0] <= 0.5
     assert flat.sum() == 64 and 64 <= left.sum() <= 64 + 8 * 4 and draft.mesh.n_elements > 256
 
@@ -355,7 +432,9 @@ def test_features_between_the_nodes_are_seen():
     def bump(x, y):
         return np.exp(-((x - 0.61) ** 2 + (y - 0.37) ** 2) / 0.02**2)
 
-    error = Misfit(bump, 1 / 40).on_elements(np.array([[[0.0, 0], [1, 0], [1, 1]]]), np.zeros((1, 3)))
+    error = Misfit(Counted(bump), 1 / 40).on_elements(
+        np.array([[[0.0, 0], [1, 0], [1, 1]]]), np.zeros((1, 3))
+    )
     assert error[0] == pytest.approx(np.pi * 0.02**2 / 2, rel=0.01)
 
 
@@ -382,13 +461,40 @@ def test_sides_of_a_domain_with_a_hole(ring):
     assert (sides_of(delaunay(lattice(2, 2))).of_node == INTERIOR).sum() == 1
 
 
+# -- settings --------------------------------------------------------------------------------------
+
+
+def test_settings_cannot_be_changed_and_each_has_its_meaning_beside_it():
+    with pytest.raises(FrozenInstanceError):
+        Settings().moves.probe = 1
+    lines = inspect.getsource(settings).splitlines()
+    numbers = [line for line in lines if re.match(r"    \w+: (int|float|tuple)", line)]
+    assert len(numbers) == sum(len(fields(section.default)) for section in fields(Settings))
+    assert all(re.search(r"  # \w+.{10}", line) for line in numbers)
+
+
+def test_every_setting_is_read_somewhere():
+    package = Path(settings.__file__).parent
+    code = "".join(file.read_text() for file in package.glob("*.py") if file.name != "settings.py")
+    names = {number.name for section in fields(Settings) for number in fields(section.default)}
+    assert {name for name in names if not re.search(rf"\.{name}\b", code)} == set()
+
+
+def test_settings_reach_the_mesh():
+    task = Task(front, UNIT_SQUARE, 0.0, "L2", 0, False)
+    assert task.with_nodes(40).mesh.equals(approximate(front, nodes=40).mesh)
+    still = replace(task, settings=Settings(rounds=Rounds(main=0, early=0, last_moves=0)))
+    steps = still.with_nodes(40).history["step"].tolist()
+    assert steps == ["grown", "moved"] * 2 + ["compared", "measured"]
+
+
 # -- bad input, interrupts -------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        ({"nodes": 2}, "range: nodes is 2; give a whole number from 3"),
+        ({"nodes": 2}, "range: nodes is 2; give a whole number of at least 3"),
         ({"nodes": 3}, "nodes: 3 nodes are too few for this domain, 4 are left; give more"),
         (
             {"domain": ((0, 0), (0, 1))},
@@ -402,7 +508,7 @@ def test_sides_of_a_domain_with_a_hole(ring):
         ),
         ({"min_angle": 40}, "range: min_angle is 40; give degrees from 0 to 30"),
         ({"norm": "L1"}, "unknown: norm 'L1' is not known"),
-        ({"seed": -1}, "range: seed is -1; give a whole number from 0"),
+        ({"seed": -1}, "range: seed is -1; give a whole number of at least 0"),
         ({"function": lambda x, y: x[:1]}, "shape: the function returned shape"),
         ({"function": lambda x, y: x + 1j}, "dtype complex128 for points"),
         ({"function": lambda x, y: np.where(x > 0.9, np.nan, x)}, "it must be finite in the whole domain"),
@@ -421,7 +527,7 @@ def test_an_interrupt_keeps_the_mesh(monkeypatch):
 
     monkeypatch.setattr("meshlib.support.progress.Watch.report", report)
     with pytest.raises(Interrupted) as stop:
-        approximate(front, 100)
+        approximate(front, nodes=100)
     found = stop.value.result
     assert len(found.history) == 3 and found.mesh.validate().n_nodes >= 16
     assert np.array_equal(found.values, front(*found.mesh.nodes.T))
@@ -434,8 +540,8 @@ def test_an_interrupt_keeps_the_mesh(monkeypatch):
 def test_a_tolerance_is_reached_and_three_per_cent_fewer_nodes_miss_it(tolerance):
     found = approximate(FRANKE, tolerance=tolerance)
     assert found.error <= tolerance
-    assert approximate(FRANKE, int(found.mesh.n_nodes / 1.03) - 1).error > tolerance
-    assert found.evaluations > approximate(FRANKE, found.mesh.n_nodes).evaluations
+    assert approximate(FRANKE, nodes=int(found.mesh.n_nodes / 1.03) - 1).error > tolerance
+    assert found.evaluations > approximate(FRANKE, nodes=found.mesh.n_nodes).evaluations
 
 
 @pytest.mark.parametrize("order", [0.5, 1.0, 2.0])
@@ -447,13 +553,13 @@ def test_the_least_number_is_found_whatever_the_order_of_convergence(order, enou
         tried.append(nodes)
         return SimpleNamespace(nodes=nodes, error=nodes**-order)
 
-    found = node_count.least(trial, enough**-order * (1 + 1e-12), 4, 200_000)
+    found = node_count.least(trial, enough**-order * (1 + 1e-12), 4, NodeCount())
     assert enough <= found.nodes <= max(enough, 1.02 * enough)
     assert len(tried) <= 15
 
 
 def test_a_tolerance_out_of_reach_is_told():
-    assert node_count.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, 1000) is None
+    assert node_count.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, NodeCount(most=1000)) is None
 
 
 def test_samples_on_a_grid_are_bilinear_between():
@@ -465,7 +571,7 @@ def test_samples_on_a_grid_are_bilinear_between():
 
 def test_samples_give_the_mesh_of_their_function():
     ticks = np.linspace(0, 1, 401)
-    found, exact = approximate(front(*np.meshgrid(ticks, ticks)), 100), approximate(front, 100)
+    found, exact = approximate(front(*np.meshgrid(ticks, ticks)), nodes=100), approximate(front, nodes=100)
     found.mesh.validate()
     assert found.error == pytest.approx(exact.error, rel=0.1)
     assert found.values == pytest.approx(front(*found.mesh.nodes.T), abs=2e-3)
@@ -504,7 +610,7 @@ def test_what_cannot_be_asked(arguments, message):
 @pytest.mark.parametrize("squarings", [1, 4])
 def test_the_slope_of_the_error_of_a_patch_is_its_derivative(squarings, rng):
     draft = draft_of(FRANKE, delaunay(scattered(rng, 200)))
-    draft.measure(squarings)
+    draft = draft.measured(squarings)
     sweep = _Sweep(draft)
     nodes = next(sweep.classes())
     nodes = nodes[draft.side[nodes] == INTERIOR]

@@ -41,14 +41,14 @@ def rows(trace):
 
 
 def assert_same(mesh, values, name, norm, **arguments):
-    ours = swapped(mesh, values, name, norm, **arguments)
-    theirs = swapped(mesh, values, reference(name), norm, **arguments)
+    ours = swapped(mesh, values, name, norm=norm, **arguments)
+    theirs = swapped(mesh, values, reference(name), norm=norm, **arguments)
     assert (ours.swaps, ours.sweeps, ours.tried) == (theirs.swaps, theirs.sweeps, theirs.tried)
     assert ours.mesh.equals(theirs.mesh)
-    assert rows(ours.trace) == rows(theirs.trace)
+    assert rows(ours.history) == rows(theirs.history)
     for field in ("old", "new"):  # small costs are differences of large gradients
-        noise = 1e-12 * theirs.trace[field].max(initial=0)
-        assert np.allclose(ours.trace[field], theirs.trace[field], rtol=1e-12, atol=noise)
+        noise = 1e-12 * theirs.history[field].max(initial=0)
+        assert np.allclose(ours.history[field], theirs.history[field], rtol=1e-12, atol=noise)
     assert ours.cost_after == pytest.approx(theirs.cost_after, rel=1e-12, abs=1e-12)
     return ours
 
@@ -70,7 +70,7 @@ def test_with_limits(name, limits):
     values = problems.functions["SR2"](*mesh.nodes.T)
     for norm in NORMS:
         found = assert_same(mesh, values, name, norm, **limits)
-        assert found.tried <= swapped(mesh, values, name, norm).tried or found.sweeps > 1
+        assert found.tried <= swapped(mesh, values, name, norm=norm).tried or found.sweeps > 1
 
 
 @settings(max_examples=150)
@@ -119,7 +119,7 @@ for name in ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle"):
             start = problems.mesh(problem)
             order = np.random.default_rng(5).permutation(start.n_edges)
             r = swapped(start, problems.functions[function], name, norm, order=order, min_angle=2)
-            t = r.trace
+            t = r.history
             found[f"{name} {norm} {problem}"] = [r.swaps, r.sweeps, r.tried, r.mesh.elements.tolist(),
                 t[["edge", "a", "b", "c", "d", "accepted"]].tolist(), t["old"].tolist(), t["new"].tolist()]
 springs = np.random.default_rng(5).random(88)
@@ -154,7 +154,7 @@ import json, sys
 import numpy as np
 from meshlib import Interpolant, criteria, delaunay, problems, smoothed, swapped
 def show(r, *more):
-    t = r.trace
+    t = r.history
     exact = [r.swaps, r.sweeps, r.tried, r.mesh.elements.tolist(), t[["edge", "a", "b", "c", "d"]].tolist()]
     near = [r.cost_before, r.cost_after, *t["old"].tolist(), *t["new"].tolist(), *more]
     print(json.dumps(["numba" in sys.modules, exact, near]))
@@ -189,7 +189,10 @@ for order in (None, np.arange(mesh.n_edges)[::-1]):
 OWN = (
     FRESH
     + """
-own = criteria.pointwise("own", "element", lambda ax, ay, au, bx, by, bu, cx, cy, cu: abs(au - bu) + abs(bu - cu))
+def rise(ax, ay, au, bx, by, bu, cx, cy, cu):
+    return abs(au - bu) + abs(bu - cu)
+
+own = criteria.pointwise("own", "element", rise)
 show(swapped(problems.mesh("33"), problems.SR2, own, norm=1))
 """
 )
@@ -235,7 +238,7 @@ def test_the_backend_of_this_run_is_the_one_asked_for():
 
     installed = importlib.util.find_spec("numba") is not None
     asked = os.environ.get("MESHLIB_BACKEND", "auto")
-    assert backend.NAME == ("numba" if asked != "python" and installed else "python")
+    assert ("numba" if asked != "python" and installed else "python") == backend.NAME
 
 
 def test_core_needs_neither_numba_nor_matplotlib():

@@ -11,11 +11,11 @@ from support import lattice
 from meshlib import Mesh, delaunay, problems
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
-import approximation  # noqa: E402
-import remeshing  # noqa: E402
-import report  # noqa: E402
-import report_approximation as page  # noqa: E402
-import run  # noqa: E402
+import approximation
+import remeshing
+import report
+import report_approximation as page
+import run
 
 
 def made(function, nodes, who="ours", **numbers):

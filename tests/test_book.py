@@ -13,7 +13,7 @@ NOTEBOOK = "notebooks/03-methods.ipynb"
 
 @pytest.fixture(autouse=True)
 def extensions(monkeypatch):
-    """The folder in which Sphinx finds the book's own extensions."""
+    """The folder in which Sphinx finds the extensions of the book."""
     monkeypatch.syspath_prepend(ROOT / "book" / "_ext")
 
 

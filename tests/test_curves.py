@@ -203,10 +203,11 @@ def test_inner_nodes_keep_their_distance():
         ),
         (
             lambda: curves.equidistributed([0, 0], 2),
-            'range: the density is 0 everywhere, so that no place is better than another; use density="length"',
+            "range: the density is 0 everywhere, so that no place is better than another; "
+            'use density="length"',
         ),
-        (lambda: curves.equidistributed([1, 1], 0), "range: n is 0; give a whole number from 1"),
-        (lambda: curves.boundary_parameters(circle, 2), "range: n is 2; give a whole number from 3"),
+        (lambda: curves.equidistributed([1, 1], 0), "range: n is 0; give a whole number of at least 1"),
+        (lambda: curves.boundary_parameters(circle, 2), "range: n is 2; give a whole number of at least 3"),
         (
             lambda: curves.boundary_parameters(circle, 9, "curvatur"),
             "unknown: density 'curvatur' is not known; did you mean 'curvature'? "

@@ -45,8 +45,11 @@ def test_the_convex_hull_is_filled(nodes):
 @settings(max_examples=60)
 @given(lattice_nodes(most=7, scales=(1.0,)))
 def test_ties_go_to_the_smallest_node_number(nodes):
-    """By brute force: of all triangulations without a node inside a circle, ours is the one
-    in which no tied diagonal could be changed for one from a smaller node."""
+    """Found by brute force.
+
+    Of all triangulations without a node inside a circle, ours is the one in which no tied
+    diagonal could be changed for one from a smaller node.
+    """
     mesh = delaunay(nodes)
     candidates = [m for m in all_meshes(mesh) if is_delaunay(m) and not _gives_way(m)]
     assert [as_set(m) for m in candidates] == [as_set(mesh)]
@@ -156,7 +159,9 @@ def test_the_input_is_not_changed(rng):
 
 def test_64_meshes_of_the_33_nodes_are_delaunay():
     """As decimals the nodes have six cocircular quadrilaterals, which share no element: 2^6.
-    As binary numbers they have none, so that the stored mesh is Delaunay in decimals only."""
+
+    As binary numbers they have none, so that the stored mesh is Delaunay in decimals only.
+    """
     stored = problems.mesh("33")
     decimals = Mesh(np.rint(20 * stored.nodes), stored.elements).validate()
     assert np.array_equal((decimals.nodes / 20).round(2), stored.nodes)

@@ -55,12 +55,12 @@ def elements_of(mesh):
 
 def swapping(function, nodes, criterion="jnd", norm=2, **options):
     options.setdefault("order", problems.order(nodes))
-    return swapped(problems.mesh(nodes), problems.functions[function], criterion, norm, **options).mesh
+    return swapped(problems.mesh(nodes), problems.functions[function], criterion, norm=norm, **options).mesh
 
 
 def rounds(mesh, u, count, *rule):
     for _ in range(count):
-        mesh = refined(mesh, u, *rule).mesh
+        mesh = refined(mesh, u, rule[0], fraction=rule[1], mark=rule[2], split=rule[3]).mesh
     return mesh
 
 
@@ -81,9 +81,9 @@ CASES = {
     ),
     "movement": (
         {"function": "SR1"},
-        lambda: smoothed(problems.mesh("33"), sweeps=explorers.MOST_SWEEPS).mesh,
+        lambda: smoothed(problems.mesh("33"), max_sweeps=explorers.MOST_SWEEPS).mesh,
     ),
-    "approximation": ({"nodes": 20}, lambda: approximate(FRANKE, 20).mesh),
+    "approximation": ({"nodes": 20}, lambda: approximate(FRANKE, nodes=20).mesh),
 }
 
 
@@ -94,7 +94,7 @@ def test_scenes_are_what_library_calls_give(name):
     scene, mesh = exploration.computed(exploration.checked(settings)), by_hand()
     assert elements_of(scene.film[-1]) == elements_of(mesh)
     assert scene.after.l2_error == pytest.approx(
-        Interpolant(mesh, scene.function).l2_error(scene.function), rel=1e-9
+        Interpolant(mesh, scene.function).l2_error(scene.function, rule="trapezium"), rel=1e-9
     )
     assert scene.after.quality.mean == pytest.approx(quality(mesh).mean)
 
@@ -229,7 +229,7 @@ def test_an_adapted_mesh_stays_one_and_another_frame_stays():
 def test_colours_of_the_view_are_matplotlibs():
     matplotlib = pytest.importorskip("matplotlib")
     for name in ("viridis", "cividis"):
-        listed = re.search(rf"const {name.upper()} = \[(.*?)\]", scripts.module(), re.S)[1]
+        listed = re.search(rf"const {name.upper()} = \[(.*?)\]", scripts.module(), re.DOTALL)[1]
         stops = re.findall(r"#\w{6}", listed)
         table = matplotlib.colormaps[name](np.arange(len(stops)) / 10)
         assert stops == [matplotlib.colors.to_hex(colour) for colour in table]

@@ -51,7 +51,7 @@ def test_an_equilateral_element_is_best_where_the_surface_is_round():
     """Its squared error is c |det H| A^3, and any other element's is larger."""
     for third, best in (((0.5, 0.75**0.5), True), ((0.4, 0.75**0.5), False)):
         mesh = Mesh([(0, 0), (1, 0), third], [(0, 1, 2)])
-        square = Interpolant(mesh, F["convex"]).l2_error(F["convex"], "exact") ** 2
+        square = Interpolant(mesh, F["convex"]).l2_error(F["convex"], rule="exact") ** 2
         least = limit.DEFINITE * 4 * mesh.domain_area**3
         assert square == pytest.approx(least) if best else square > 1.001 * least
 
@@ -94,7 +94,7 @@ def test_a_zigzag_has_three_quarters_of_the_error_of_strips():
         return x**2
 
     errors = [
-        Interpolant(mesh, across).l2_error(across, "exact")
+        Interpolant(mesh, across).l2_error(across, rule="exact")
         for mesh in (Mesh([(0, 0), (1, 0), (top, 9)], [(0, 1, 2)]) for top in (1, 0.5))
     ]
     assert errors[1] / errors[0] == pytest.approx(limit.ZIGZAG)

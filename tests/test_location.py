@@ -88,7 +88,7 @@ def test_long_elements_between_two_diagonals(shift):
 def test_many_slivers_share_few_cells():
     """2,000 long elements, whose bounding boxes touch a million cells of a fine grid."""
     line = np.repeat(np.arange(1001.0)[:, None], 2, axis=1)
-    nodes = np.concatenate([line, line + [2000, -2000]])
+    nodes = np.concatenate([line, line + np.array([2000, -2000])])
     elements = [t for n in range(1000) for t in ([n, n + 1001, n + 1], [n + 1, n + 1001, n + 1002])]
     mesh = Mesh._trusted(nodes, elements)
     buckets = locate_by_buckets._Buckets(mesh)

@@ -90,7 +90,7 @@ def test_the_left_element_stands_first(start):
     inner = np.flatnonzero(~start.boundary)
     tail, head = start.nodes[start.edges[inner, 0]], start.nodes[start.edges[inner, 1]]
     centre = start.corners.mean(axis=1)
-    for side, sign in zip(start.edge_elements[inner].T, (1, -1)):
+    for side, sign in zip(start.edge_elements[inner].T, (1, -1), strict=True):
         u, v = head - tail, centre[side] - tail
         assert (np.sign(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) == sign).all()
 
@@ -165,7 +165,7 @@ def test_a_copy_is_equal_and_frozen_too(square, copied):
         lambda a: a.tolist(),
         lambda a: a.astype(np.float32),
         lambda a: a.astype(int),
-        lambda a: np.asfortranarray(a),
+        np.asfortranarray,
         lambda a: np.repeat(a, 2, axis=0)[::2],
         lambda a: np.hstack([a, a])[:, :2],
         lambda a: a[::-1][::-1],
@@ -209,7 +209,7 @@ def test_round_trip(start, rng):
         Mesh.from_arrays(nodes.tolist(), edges.tolist(), elements.tolist()),
     ):
         assert again.equals(start)
-        for mine, theirs in zip(again.to_arrays(), (nodes, edges, elements)):
+        for mine, theirs in zip(again.to_arrays(), (nodes, edges, elements), strict=True):
             assert np.array_equal(mine, theirs)
 
 

@@ -51,7 +51,7 @@ def in_python(criterion):
 
 
 def assert_same(mesh, values, criterion, other, norm, **arguments):
-    ours, theirs = (swapped(mesh, values, c, norm, **arguments) for c in (criterion, other))
+    ours, theirs = (swapped(mesh, values, c, norm=norm, **arguments) for c in (criterion, other))
     assert ours.mesh.validate().equals(theirs.mesh)
     assert (ours.swaps, ours.sweeps, ours.tried) == (theirs.swaps, theirs.sweeps, theirs.tried)
 
@@ -82,16 +82,16 @@ def test_min_error_in_kernels(name, schedule):
     criterion = criteria.min_error(u)
     assert criterion.is_compiled
     assert_same(mesh, u, criterion, in_python(criterion), 2, schedule=schedule)
-    found = swapped(mesh, u, criterion, 2)
+    found = swapped(mesh, u, criterion, norm=2)
     turned = Mesh(mesh.nodes, from_smallest(found.mesh.elements))  # the rule is not symmetric in the nodes
-    assert found.cost_after == pytest.approx(Interpolant(turned, u).l2_error(u, "exact", degree=6))
+    assert found.cost_after == pytest.approx(Interpolant(turned, u).l2_error(u, rule="exact", degree=6))
 
 
 def test_a_function_that_numba_cannot_compile_runs_in_python():
     u = problems.functions["DD1"]  # np.select of single numbers
     criterion = criteria.min_error(u)
     assert criterion.is_compiled is not NUMBA
-    assert swapped(problems.mesh("33"), u, criterion, 2).swaps > 0
+    assert swapped(problems.mesh("33"), u, criterion, norm=2).swaps > 0
 
 
 def test_a_cost_that_numba_cannot_compile_is_named_and_runs_in_python():
@@ -104,7 +104,7 @@ def test_a_cost_that_numba_cannot_compile_is_named_and_runs_in_python():
     else:
         found = criteria.pointwise("length", "edge", by_name)
     long = shuffled(delaunay(lattice(4, 4)), np.random.default_rng(1))
-    result = swapped(long, np.zeros(long.n_nodes), found, 1)
+    result = swapped(long, np.zeros(long.n_nodes), found, norm=1)
     assert result.swaps > 0 and result.cost_after < result.cost_before
 
 
@@ -152,5 +152,7 @@ def test_criteria_on_nodes_have_no_single_cost():
 def test_a_criterion_can_be_sent_to_other_processes():
     joblib = pytest.importorskip("joblib")
     mesh, u = problems.mesh("33"), problems.SR2
-    there = joblib.Parallel(n_jobs=2)(joblib.delayed(swapped)(mesh, u, JUMP, n) for n in (1, 2))
-    assert all(r.mesh.equals(swapped(mesh, u, "jnd", n).mesh) for r, n in zip(there, (1, 2), strict=True))
+    there = joblib.Parallel(n_jobs=2)(joblib.delayed(swapped)(mesh, u, JUMP, norm=n) for n in (1, 2))
+    assert all(
+        r.mesh.equals(swapped(mesh, u, "jnd", norm=n).mesh) for r, n in zip(there, (1, 2), strict=True)
+    )

@@ -21,12 +21,12 @@ STEPS = st.one_of(
 def step(mesh, values, kind, first, second):
     """The mesh and nodal values after one operation."""
     if kind == "swap":
-        return swapped(mesh, values, first, second, min_angle=1).mesh, values
+        return swapped(mesh, values, first, norm=second, min_angle=1).mesh, values
     if kind == "refine":
-        result = refined(mesh, values, fraction=0.3, mark=first, split=second)
+        result = refined(mesh, values, "abn", fraction=0.3, mark=first, split=second)
         return result.mesh, result.values
     springs = np.arange(mesh.n_edges) % 3 + second
-    return smoothed(mesh, springs, sweeps=first).mesh, values
+    return smoothed(mesh, springs, max_sweeps=first).mesh, values
 
 
 @settings(max_examples=100)
@@ -73,7 +73,7 @@ def test_the_order_of_nodes_changes_ties_only(nodes, seed):
         Interpolant(m, lambda x, y: np.sin(3 * x / nodes.max()) + (y / nodes.max()) ** 3).gradients
         for m in meshes_
     ]
-    first, second = (m.areas @ (g**2).sum(axis=1) for m, g in zip(meshes_, gradients))
+    first, second = (m.areas @ (g**2).sum(axis=1) for m, g in zip(meshes_, gradients, strict=True))
     assert meshes_[0].counts == meshes_[1].counts
     assert np.isclose(first, second, rtol=1e-9)
 
@@ -87,7 +87,7 @@ def test_the_order_of_nodes_changes_ties_only(nodes, seed):
 )
 def test_scaled_data_swap_alike(problem, name, norm, alpha):
     mesh, values = problem
-    plain, scaled = (swapped(mesh, v, name, norm) for v in (values, alpha * values))
+    plain, scaled = (swapped(mesh, v, name, norm=norm) for v in (values, alpha * values))
     assert as_set(plain.mesh) == as_set(scaled.mesh)
     assert np.isclose(scaled.cost_after, abs(alpha) * plain.cost_after, rtol=1e-12)
 

@@ -21,7 +21,7 @@ from meshlib import (
     uniformity,
     valence,
 )
-from meshlib.mesh.quality import angles
+from meshlib.mesh.quality import MEASURES, angles
 
 HEIGHT = np.sqrt(3) / 2
 
@@ -46,7 +46,7 @@ def test_half_a_square():
 
 
 def test_half_an_equilateral():
-    """Angles 30, 60, 90: skewness (30 + 0 + 30)/3 = 20 degrees; AR 4 sqrt(3) (sqrt(3)/8) / (1 + 1/4 + 3/4)."""
+    """Angles 30, 60, 90: skewness (30 + 0 + 30)/3 = 20 degrees; AR 4 sqrt(3) (sqrt(3)/8)/(1 + 1/4 + 3/4)."""
     q = one((0, 0), (0.5, 0), (0, HEIGHT))
     assert q.maximum_angle == pytest.approx([90])
     assert q.skewness == pytest.approx([np.radians(20)])
@@ -93,12 +93,17 @@ def test_mean_max_and_table(square):
         Mesh([[0, 0], [1, 0], [0.5, HEIGHT], [1.5, HEIGHT], [2, 0]], [[0, 1, 2], [1, 3, 2], [1, 4, 3]])
     )
     assert q.mean["maximum_angle"] == pytest.approx(60) == q.max["maximum_angle"]
-    assert list(q.mean) == list(q.max) == ["maximum_angle", "skewness", "aspect_ratio"]
+    assert q.min["minimum_angle"] == pytest.approx(60) and q.worst["aspect_ratio"] == pytest.approx(1)
+    assert q.max["longest_edge"] == pytest.approx(1) == q.min["shortest_edge"]
+    assert list(q.mean) == list(q.max) == list(q.min) == list(q.worst) == list(MEASURES)
     assert str(quality(square)).splitlines() == [
-        "Measure             mean       max",
-        "Maximum angle    90.0000   90.0000",
-        "Skewness          0.3491    0.3491",
-        "Aspect ratio      0.8660    0.8660",
+        "Measure              mean      worst",
+        "Minimum angle          45         45",
+        "Maximum angle          90         90",
+        "Skewness           0.3491     0.3491",
+        "Aspect ratio        0.866      0.866",
+        "Shortest edge           1          1",
+        "Longest edge        1.414      1.414",
     ]
     with pytest.raises(dataclasses.FrozenInstanceError):
         q.skewness = None
@@ -147,14 +152,17 @@ def test_centroids_split_into_equal_parts():
 def test_the_longest_edge_halves():
     """Of equal right angled elements one pair is bisected at a time: ratios 1 and 2."""
     mesh = delaunay(lattice(6, 6))
-    new = refined(mesh, lambda x, y: x**2, fraction=0.1, split="longest-edge").mesh
+    new = refined(mesh, lambda x, y: x**2, "abn", fraction=0.1, split="longest-edge").mesh
     assert sorted(set(uniformity(new).round(9))) == [1.0, 2.0]
 
 
 def test_valence_by_hand(square):
     """A fan of six around a node: 6 in the middle, 2 at the rim."""
     turn = np.arange(6) * np.pi / 3
-    fan = Mesh([(0, 0), *zip(np.cos(turn), np.sin(turn))], [(0, k + 1, (k + 1) % 6 + 1) for k in range(6)])
+    fan = Mesh(
+        [(0, 0), *np.column_stack([np.cos(turn), np.sin(turn)])],
+        [(0, k + 1, (k + 1) % 6 + 1) for k in range(6)],
+    )
     assert valence(fan).tolist() == [6, 2, 2, 2, 2, 2, 2]
     assert valence(square).tolist() == [2, 1, 2, 1]
 

@@ -40,12 +40,12 @@ def tries(trace):
 def test_both_procedures_agree_and_end_in_a_local_optimum(problem, name, norm, limits, seed):
     mesh, values = problem
     order = None if seed is None else np.random.default_rng(seed).permutation(mesh.n_edges)
-    ours = swapped(mesh, values, name, norm, order, schedule="queue", **limits)
-    theirs = swapped(mesh, values, reference(name), norm, order, schedule="queue", **limits)
+    ours = swapped(mesh, values, name, norm=norm, order=order, schedule="queue", **limits)
+    theirs = swapped(mesh, values, reference(name), norm=norm, order=order, schedule="queue", **limits)
     assert ours.mesh.validate().equals(theirs.mesh)
     assert (ours.swaps, ours.sweeps, ours.tried) == (theirs.swaps, 0, theirs.tried)
-    assert tries(ours.trace) == tries(theirs.trace)
-    assert swapped(ours.mesh, values, name, norm, **limits).swaps == 0
+    assert tries(ours.history) == tries(theirs.history)
+    assert swapped(ours.mesh, values, name, norm=norm, **limits).swaps == 0
 
 
 @pytest.mark.parametrize("name", ["jnd", "abn"])
@@ -53,16 +53,16 @@ def test_both_procedures_agree_and_end_in_a_local_optimum(problem, name, norm, l
 def test_the_cost_falls_and_no_edge_is_left_to_swap(name, norm):
     rng = np.random.default_rng(4)
     mesh, u = delaunay(rng.random((2000, 2))), problems.functions["franke"]
-    found = swapped(mesh, u, name, norm, schedule="queue")
+    found = swapped(mesh, u, name, norm=norm, schedule="queue")
     assert found.cost_after < found.cost_before and found.swaps > 500
-    assert swapped(found.mesh.validate(), u, name, norm).swaps == 0
+    assert swapped(found.mesh.validate(), u, name, norm=norm).swaps == 0
 
 
 def test_the_trace_of_a_queue_can_be_replayed():
     mesh, u = problems.mesh("33"), problems.functions["SR2"]
-    found = swapped(mesh, u, "abn", 1, schedule="queue")
+    found = swapped(mesh, u, "abn", norm=1, schedule="queue")
     elements = as_set(mesh)
-    for row in found.trace[found.trace["accepted"]]:
+    for row in found.history[found.history["accepted"]]:
         a, b, c, d = (int(row[k]) for k in "abcd")
         old, new = (
             {tuple(sorted(t)) for t in pair} for pair in (((a, b, c), (a, b, d)), ((c, d, a), (c, d, b)))
@@ -70,14 +70,16 @@ def test_the_trace_of_a_queue_can_be_replayed():
         assert old <= elements
         elements = (elements - old) | new
     assert elements == as_set(found.mesh)
-    first = found.trace[0]
+    first = found.history[0]
     assert mesh.edges[first["edge"]].tolist() == sorted((first["a"], first["b"]))
 
 
 def test_max_min_angles_by_a_queue_give_delaunay(rng):
     start = shuffled(delaunay(rng.random((60, 2))), rng)
     assert not is_delaunay(start)
-    assert is_delaunay(swapped(start, np.zeros(60), "smallest-angle", "lexicographic", schedule="queue").mesh)
+    assert is_delaunay(
+        swapped(start, np.zeros(60), "smallest-angle", norm="lexicographic", schedule="queue").mesh
+    )
 
 
 def test_an_unknown_schedule_is_named(square):
@@ -124,7 +126,7 @@ def test_edges_by_counting_are_those_by_sorting(hole, rng, monkeypatch):
 
 
 def test_half_edges_by_hand(square):
-    """Elements (0, 1, 2), (0, 2, 3): their common side is opposite node 1 of the first, node 3 of the second."""
+    """Elements (0, 1, 2), (0, 2, 3): their common side is opposite node 1 in one, node 3 in the other."""
     twin, slot, half = (np.asarray(v) for v in half_edges(square.element_edges, square.n_edges, for_work(0)))
     assert twin.tolist() == [-1, 5, -1, -1, -1, 1]
     assert square.edges[slot].tolist() == [[1, 2], [0, 2], [0, 1], [2, 3], [0, 3], [0, 2]]

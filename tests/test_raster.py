@@ -68,8 +68,8 @@ def test_slivers_do_not_decide_for_their_neighbours():
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        ({"nx": 1}, "range: nx is 1; give a whole number from 2"),
-        ({"ny": 0}, "range: ny is 0; give a whole number from 2"),
+        ({"nx": 1}, "range: nx is 1; give a whole number of at least 2"),
+        ({"ny": 0}, "range: ny is 0; give a whole number of at least 2"),
     ],
 )
 def test_sizes_are_checked(arguments, message):

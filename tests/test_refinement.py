@@ -49,7 +49,7 @@ def test_red_refinement_of_everything(start, frame):
 def test_centroids(mark, fraction):
     """R new nodes, 2 R more elements, 3 R more edges."""
     mesh, u = problems.mesh("33"), problems.functions["SR1"]
-    result = refined(mesh, u, fraction=fraction, mark=mark, split="centroid")
+    result = refined(mesh, u, "abn", fraction=fraction, mark=mark, split="centroid")
     r = len(result.marked)
     n, e, t = mesh.counts
     assert result.mesh.validate().counts == (n + r, e + 3 * r, t + 2 * r)
@@ -83,7 +83,7 @@ def test_an_element_with_two_hanging_nodes_turns_red():
 @pytest.mark.parametrize("mark", MARKS)
 def test_fraction_zero_changes_nothing(split, mark):
     mesh, u = problems.mesh("33"), problems.functions["SR1"]
-    result = refined(mesh, u, fraction=0, mark=mark, split=split)
+    result = refined(mesh, u, "abn", fraction=0, mark=mark, split=split)
     assert result.mesh.equals(mesh) and len(result.marked) == 0
     assert np.array_equal(result.parents, np.arange(mesh.n_elements))
 
@@ -104,7 +104,7 @@ def test_the_share_is_rounded_up_but_not_by_rounding_errors(fraction, number):
     mesh = delaunay(lattice(5, 5))
     assert mesh.n_elements == 50
     by_number = criteria.Criterion("number", "element", lambda a, b, c: np.arange(50.0))
-    chosen = marked(mesh, np.zeros(36), by_number, fraction)
+    chosen = marked(mesh, np.zeros(36), by_number, fraction=fraction)
     assert chosen.tolist() == list(range(50 - number, 50))
 
 
@@ -130,9 +130,9 @@ def test_ties(square):
 def test_costs_that_differ_by_rounding_tie():
     mesh = delaunay(lattice(2, 1))
     noisy = criteria.Criterion("noisy", "element", lambda a, b, c: 1 + 1e-15 * np.arange(4))
-    assert marked(mesh, np.zeros(6), noisy, 0.5).tolist() == [0, 1]
+    assert marked(mesh, np.zeros(6), noisy, fraction=0.5).tolist() == [0, 1]
     clear = criteria.Criterion("clear", "element", lambda a, b, c: 1 + 1e-6 * np.arange(4))
-    assert marked(mesh, np.zeros(6), clear, 0.5).tolist() == [2, 3]
+    assert marked(mesh, np.zeros(6), clear, fraction=0.5).tolist() == [2, 3]
 
 
 def test_by_edge_marks_both_elements_of_the_worst_edges(square):
@@ -140,17 +140,17 @@ def test_by_edge_marks_both_elements_of_the_worst_edges(square):
     inner = np.flatnonzero(~mesh.boundary)
     cost = criteria.Criterion("edge", "edge", lambda p, q, left, right: np.array([1.0, 3.0, 2.0]))
     worst = mesh.edge_elements[inner[1]]
-    assert marked(mesh, np.zeros(6), cost, 0.25, "edge").tolist() == sorted(worst)
-    assert marked(mesh, np.zeros(6), cost, 0.5, "edge").tolist() == sorted(worst)
+    assert marked(mesh, np.zeros(6), cost, fraction=0.25, mark="edge").tolist() == sorted(worst)
+    assert marked(mesh, np.zeros(6), cost, fraction=0.5, mark="edge").tolist() == sorted(worst)
     both = set(worst) | set(mesh.edge_elements[inner[2]])
-    assert marked(mesh, np.zeros(6), cost, 0.51, "edge").tolist() == sorted(both)
+    assert marked(mesh, np.zeros(6), cost, fraction=0.51, mark="edge").tolist() == sorted(both)
 
 
 def test_by_node_marks_the_patch():
     mesh = delaunay(lattice(2, 2))
     cost = criteria.Criterion("node", "node", lambda u_h: np.arange(9) == 4)
     assert (
-        marked(mesh, np.zeros(9), cost, 1e-6, "node").tolist()
+        marked(mesh, np.zeros(9), cost, fraction=1e-6, mark="node").tolist()
         == np.flatnonzero((mesh.elements == 4).any(axis=1)).tolist()
     )
 
@@ -161,8 +161,8 @@ def test_density_divides_by_the_area():
     cost = criteria.Criterion(
         "cost", "element", lambda a, b, c: np.array([1.0, 2.0, 3.0])
     )  # areas 1/2, 1/2, 4
-    assert marked(mesh, np.zeros(5), cost, 0.3).tolist() == [2]
-    assert marked(mesh, np.zeros(5), cost, 0.3, "density").tolist() == [1]
+    assert marked(mesh, np.zeros(5), cost, fraction=0.3).tolist() == [2]
+    assert marked(mesh, np.zeros(5), cost, fraction=0.3, mark="density").tolist() == [1]
 
 
 def test_averages_by_hand(square):
@@ -185,7 +185,7 @@ def test_averages_by_hand(square):
 def test_means_leave_the_interpolant_as_it_was(split, rng):
     mesh = problems.mesh("33")
     values = rng.standard_normal(33)
-    result = refined(mesh, values, fraction=0.4, split=split)
+    result = refined(mesh, values, "abn", fraction=0.4, split=split)
     x, y = rng.random((2, 500))
     old, new = Interpolant(mesh, values), Interpolant(result.mesh, result.values)
     assert np.abs(old(x, y) - new(x, y)).max() < 1e-12
@@ -195,7 +195,7 @@ def test_means_leave_the_interpolant_as_it_was(split, rng):
 
 def test_a_function_is_evaluated_at_the_new_nodes():
     u = problems.functions["SR3"]
-    result = refined(problems.mesh("33"), u)
+    result = refined(problems.mesh("33"), u, "abn")
     assert np.array_equal(result.values, u(*result.mesh.nodes.T))
     with pytest.raises(dataclasses.FrozenInstanceError):
         result.values = None
@@ -220,7 +220,7 @@ def test_red_green_angles_do_not_deteriorate(name, function):
     mesh = first = problems.mesh(name)
     bound = float(np.degrees(angles(bisections(first)).min()))
     for _ in range(6):
-        mesh = refined(mesh, problems.functions[function], fraction=0.1).mesh.validate()
+        mesh = refined(mesh, problems.functions[function], "abn", fraction=0.1).mesh.validate()
         assert smallest_angle(mesh) >= min(smallest_angle(first), bound) - 1e-7
     assert len(mesh.green) > 0
 
@@ -242,7 +242,7 @@ def test_a_green_pair_stays_or_turns_red(half):
     """Red if either half is marked."""
     mesh = delaunay(lattice(4, 4))
     once = refine_at(mesh, 1.7, 1.4)
-    again = refined(once, np.zeros(once.n_nodes), fraction=0)
+    again = refined(once, np.zeros(once.n_nodes), "abn", fraction=0)
     assert as_set(again.mesh) == as_set(once)
     pair = once.green[0]
     x, y = once.corners[pair[half]].mean(axis=0)
@@ -259,7 +259,7 @@ def test_longest_edge_bisection_keeps_half_of_the_smallest_angle(name, fraction)
     """Rosenberg & Stenger 1975."""
     mesh = first = problems.mesh(name)
     for _ in range(4 if fraction == 1 else 8):
-        mesh = refined(mesh, problems.functions["SR3"], fraction=fraction, split="longest-edge").mesh
+        mesh = refined(mesh, problems.functions["SR3"], "abn", fraction=fraction, split="longest-edge").mesh
         assert smallest_angle(mesh) >= smallest_angle(first) / 2 - 1e-9
     mesh.validate()
 
@@ -284,7 +284,7 @@ def test_any_sequence_of_refinements_is_valid(problem, steps):
     area = mesh.domain_area
     for name, fraction, mark, split, ties in steps:
         before = mesh.nodes.copy(), mesh.elements.copy()
-        result = refined(mesh, values, name, fraction, mark, split, ties)
+        result = refined(mesh, values, name, fraction=fraction, mark=mark, split=split, ties=ties)
         assert np.array_equal(mesh.nodes, before[0]) and np.array_equal(mesh.elements, before[1])
         mesh, values = result.mesh.validate(), result.values
         assert mesh.domain_area == pytest.approx(area)
@@ -292,7 +292,7 @@ def test_any_sequence_of_refinements_is_valid(problem, steps):
 
 @pytest.mark.parametrize("split", SPLITS)
 def test_a_hole_stays_a_hole(frame, split, rng):
-    new = refined(frame, rng.standard_normal(16), fraction=0.3, split=split).mesh.validate()
+    new = refined(frame, rng.standard_normal(16), "abn", fraction=0.3, split=split).mesh.validate()
     n, e, t = new.counts
     assert n - e + t == 0  # Euler, one hole
     assert new.domain_area == pytest.approx(8)
@@ -311,7 +311,7 @@ def test_an_element_too_thin_for_a_middle_is_refused(split):
 def test_costs_that_are_not_finite_are_named(square):
     bad = criteria.Criterion("bad", "element", lambda a, b, c: np.array([0.0, np.nan]))
     with pytest.raises(MeshError) as error:
-        marked(square, np.zeros(4), bad, 0.5)
+        marked(square, np.zeros(4), bad, fraction=0.5)
     assert str(error.value) == (
         "cost: the cost of element 1 is nan; a criterion must return finite numbers of at least 0"
     )

@@ -48,7 +48,7 @@ def test_a_shaken_lattice_comes_to_rest_where_it_was(rng):
 def test_at_rest_the_forces_balance(rng):
     mesh = delaunay(rng.random((40, 2)))
     springs = rng.uniform(0.5, 2, mesh.n_edges)
-    result = smoothed(mesh, springs, tolerance=1e-13)
+    result = smoothed(mesh, springs, min_movement=1e-13)
     assert result.refused == 0
     force = np.zeros((40, 2))
     p, q = mesh.edges.T
@@ -96,7 +96,7 @@ def test_a_move_that_makes_a_small_element_is_refused():
 def test_valid_whatever_the_springs(mesh, seed, sweeps):
     before = mesh.nodes.copy()
     springs = np.random.default_rng(seed).choice([0.0, 1e-6, 1.0, 1e6], mesh.n_edges)
-    result = smoothed(mesh, springs, sweeps=sweeps)
+    result = smoothed(mesh, springs, max_sweeps=sweeps)
     result.mesh.validate()
     assert result.sweeps <= sweeps
     assert np.array_equal(result.mesh.elements, mesh.elements) and np.array_equal(mesh.nodes, before)
@@ -109,12 +109,12 @@ def test_valid_whatever_the_springs(mesh, seed, sweeps):
 def test_moved_green_pairs_do_not_spoil_the_next_refinement(mesh, seed):
     rng = np.random.default_rng(seed)
     for _ in range(3):
-        mesh = refined(mesh, rng.standard_normal(mesh.n_nodes), fraction=0.2).mesh.validate()
-        mesh = smoothed(mesh, rng.choice([0.01, 1.0, 100.0], mesh.n_edges), sweeps=3).mesh.validate()
+        mesh = refined(mesh, rng.standard_normal(mesh.n_nodes), "abn", fraction=0.2).mesh.validate()
+        mesh = smoothed(mesh, rng.choice([0.01, 1.0, 100.0], mesh.n_edges), max_sweeps=3).mesh.validate()
 
 
 def test_green_pairs_at_rest_are_remembered():
-    mesh = refined(problems.mesh("81"), problems.functions["SR1"], fraction=0.1).mesh
+    mesh = refined(problems.mesh("81"), problems.functions["SR1"], "abn", fraction=0.1).mesh
     assert len(smoothed(mesh, np.zeros(mesh.n_edges)).mesh.green) == len(mesh.green) > 0
 
 
@@ -147,7 +147,10 @@ def test_derivatives_of_a_quadratic_along_edges(name):
 
 def test_the_unit_of_the_data_does_not_matter():
     mesh, u = problems.mesh("33"), problems.SR2
-    assert np.allclose(DataSprings(u, 3, 5)(mesh), DataSprings(lambda x, y: 7 - 1e6 * u(x, y), 3, 5)(mesh))
+    assert np.allclose(
+        DataSprings(u, first=3, second=5)(mesh),
+        DataSprings(lambda x, y: 7 - 1e6 * u(x, y), first=3, second=5)(mesh),
+    )
 
 
 def test_linear_data_give_laplacian_smoothing():
@@ -162,14 +165,16 @@ def test_linear_data_give_laplacian_smoothing():
 )
 def test_valid_whatever_the_data(mesh, sliding, sweeps, power):
     u = lambda x, y: np.tanh(5 * (x - 2)) + np.sin(7 * y)  # noqa: E731
-    moved = smoothed(mesh, DataSprings(u, 1, 100, power), sweeps=sweeps, sliding=sliding).mesh.validate()
+    moved = smoothed(
+        mesh, DataSprings(u, first=1, second=100, power=power), max_sweeps=sweeps, sliding=sliding
+    ).mesh.validate()
     assert np.array_equal(moved.elements, mesh.elements)
     assert moved.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
 
 
 def test_nodes_slide_along_sides_and_corners_stay():
     mesh = problems.mesh("81")
-    moved = smoothed(mesh, DataSprings(problems.SR3), sliding=True, tolerance=1e-4).mesh
+    moved = smoothed(mesh, DataSprings(problems.SR3), sliding=True, min_movement=1e-4).mesh
     on_side = (mesh.nodes == 0) | (mesh.nodes == 1)
     assert np.array_equal(moved.nodes[on_side], mesh.nodes[on_side])
     shift = np.abs(moved.nodes - mesh.nodes).max(axis=1)
@@ -178,22 +183,25 @@ def test_nodes_slide_along_sides_and_corners_stay():
 
 def test_a_step_that_would_tangle_is_halved():
     """From (1/2, 0) towards (9/4, 0); the notch is at (1, 0): a quarter of the step is the first inside."""
-    result = smoothed(boomerang(), halvings=2, sweeps=1)
+    result = smoothed(boomerang(), halvings=2, max_sweeps=1)
     assert result.refused == 0 and result.mesh.validate().nodes[4] == pytest.approx([0.5 + 1.75 / 4, 0])
-    assert smoothed(boomerang(), halvings=1, sweeps=1).refused == 1
+    assert smoothed(boomerang(), halvings=1, max_sweeps=1).refused == 1
 
 
 @pytest.mark.parametrize(
     "arguments, expected",
     [
-        ((3,), "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
-        ((len, -1), "range: first is -1; give a finite number of at least 0"),
-        ((len, 0, float("inf")), "range: second is inf; give a finite number of at least 0"),
+        ({"function": 3}, "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
+        ({"function": len, "first": -1}, "range: first is -1; give a finite number of at least 0"),
+        (
+            {"function": len, "second": float("inf")},
+            "range: second is inf; give a finite number of at least 0",
+        ),
     ],
 )
 def test_bad_data_springs(arguments, expected):
     with pytest.raises(MeshError) as error:
-        DataSprings(*arguments)
+        DataSprings(**arguments)
     assert str(error.value) == expected
 
 

@@ -1,5 +1,7 @@
 """Marking and splitting against slow references, which know edges as pairs of nodes."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -93,7 +95,7 @@ def closed(leaves, middle):
 def test_red_green_is_what_the_reference_makes(problem, fractions, seed):
     mesh, rng = problem[0], np.random.default_rng(seed)
     for fraction in fractions:
-        result = refined(mesh, rng.standard_normal(mesh.n_nodes), fraction=fraction)
+        result = refined(mesh, rng.standard_normal(mesh.n_nodes), "abn", fraction=fraction)
         elements, parents, green, ends = red_green(mesh, result.marked)
         assert result.mesh.elements.tolist() == elements and result.parents.tolist() == parents
         assert result.mesh.green.tolist() == green
@@ -135,7 +137,7 @@ def ranking(costs, order):
     """Numbers by descending cost, those that tie in the given order; and the groups that tie."""
     numbers = sorted(order, key=lambda i: -costs[i])
     groups = [[numbers[0]]]
-    for i, j in zip(numbers, numbers[1:], strict=False):
+    for i, j in pairwise(numbers):
         if costs[i] - costs[j] > TIED * max(costs):
             groups.append([])
         groups[-1].append(j)
@@ -171,7 +173,15 @@ def test_marking_is_what_the_reference_marks(problem, mark, ties, target, noise,
         costs[mesh.boundary] = 0
     inner = costs[~mesh.boundary] if mark == "edge" else costs
     order, criterion = rng.permutation(size), criteria.Criterion("given", mark, lambda *_: inner)
-    found = marked(mesh, np.zeros(mesh.n_nodes), criterion, target / mesh.n_elements, mark, ties, order)
+    found = marked(
+        mesh,
+        np.zeros(mesh.n_nodes),
+        criterion,
+        fraction=target / mesh.n_elements,
+        mark=mark,
+        ties=ties,
+        order=order,
+    )
     assert found.tolist() == chosen_by(mesh, costs.tolist(), mark, ties, target, order.tolist())
 
 
@@ -179,7 +189,7 @@ def test_marking_is_what_the_reference_marks(problem, mark, ties, target, noise,
 def test_all_equal_costs_are_marked_in_the_given_order(mark):
     mesh = problems.mesh("81")
     flat = criteria.Criterion("flat", "element", lambda a, b, c: np.ones(128))
-    first = marked(mesh, np.zeros(81), flat, 1 / 128, mark)
+    first = marked(mesh, np.zeros(81), flat, fraction=1 / 128, mark=mark)
     assert 0 in (first if mark in ("element", "density") else mesh.elements[first])
 
 

@@ -33,7 +33,9 @@ def test_a_plane_is_not_equally_steep_along_all_edges():
     """On 2 x 2 squares |u_s| of u = x is 1, 0, 1/sqrt 2 on 6, 6, 4 edges of lengths 1, 1, sqrt 2."""
     mesh = delaunay(lattice(2, 2))
     mean = (6 + 4) / (12 + 4 * np.sqrt(2))
-    found, counts = np.unique(DataSprings(lambda x, y: x, 1, 0, 1)(mesh).round(9), return_counts=True)
+    found, counts = np.unique(
+        DataSprings(lambda x, y: x, first=1, second=0, power=1)(mesh).round(9), return_counts=True
+    )
     assert found == pytest.approx([1, 1 + np.sqrt(0.5) / mean, 1 + 1 / mean]) and counts.tolist() == [6, 4, 6]
 
 
@@ -44,7 +46,7 @@ def test_the_mesh_is_valid_after_every_number_of_sweeps(seed, name, sliding):
     mesh = delaunay(np.concatenate([lattice(4, 4) / 4, inner]))
     springs = DataSprings(problems.functions[name], first=1.0)
     for sweeps in (1, 3, 30):
-        moved = smoothed(mesh, springs, sweeps=sweeps, sliding=sliding).mesh.validate()
+        moved = smoothed(mesh, springs, max_sweeps=sweeps, sliding=sliding).mesh.validate()
         assert moved.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
 
 
@@ -64,7 +66,7 @@ def test_moving_before_swapping_beats_swapping_alone():
 
     def error(start):
         swap = swapped(start, u, "jnd", norm=2).mesh
-        return Interpolant(swap, u).l2_error(u, "exact")
+        return Interpolant(swap, u).l2_error(u, rule="exact")
 
     assert error(moved) < error(mesh) / 3
 
@@ -72,11 +74,11 @@ def test_moving_before_swapping_beats_swapping_alone():
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        ((3,), "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
-        ((np.hypot, -1.0), "range: first is -1.0; give a finite number of at least 0"),
+        ({"function": 3}, "type: the function is 3; give u(x, y), for nodes move to where no value is known"),
+        ({"function": np.hypot, "first": -1.0}, "range: first is -1.0; give a finite number of at least 0"),
     ],
 )
 def test_what_springs_cannot_be(arguments, message):
     with pytest.raises(MeshError) as caught:
-        DataSprings(*arguments)
+        DataSprings(**arguments)
     assert str(caught.value) == message

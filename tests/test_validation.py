@@ -119,7 +119,7 @@ def test_every_clause_is_broken_by_some_case():
 
 @pytest.mark.parametrize("derive", ["edges", "corners", "areas", "neighbours", "boundary_nodes"])
 def test_nothing_is_derived_from_bad_indices(derive):
-    with pytest.raises(MeshError, match="^index range: element 0 names node 3; nodes are numbered 0 to 2$"):
+    with pytest.raises(MeshError, match=r"^index range: element 0 names node 3; nodes are numbered 0 to 2$"):
         getattr(Mesh([[0, 0], [1, 0], [0, 1]], [[0, 1, 3]]), derive)
 
 
@@ -143,7 +143,7 @@ def test_decisions_are_exact_to_the_last_bit():
     nodes = [[0, 0], [2, 0], [0, 2], [2, 2], [1, above]]
     Mesh(nodes, [[0, 1, 2], [1, 3, 4], [4, 3, 2]]).validate()
     nodes[4] = [1, np.nextafter(1.0, 0.0)]
-    with pytest.raises(MeshError, match="^overlap: elements 0 and [12] overlap by an area of "):
+    with pytest.raises(MeshError, match=r"^overlap: elements 0 and [12] overlap by an area of "):
         Mesh(nodes, [[0, 1, 2], [1, 3, 4], [4, 3, 2]]).validate()
 
 

@@ -38,22 +38,22 @@ def test_an_interrupt_keeps_what_is_done(start, interrupted, schedule, order):
     order = None if order is None else np.arange(start.n_edges)[::-1]
     before = signal.getsignal(signal.SIGINT)
     with pytest.raises(KeyboardInterrupt) as stop:
-        swapped(start, u, "abn", 1, order=order, schedule=schedule)
+        swapped(start, u, "abn", norm=1, order=order, schedule=schedule)
     found = stop.value.result
     assert isinstance(stop.value, Interrupted) and len(interrupted) == 2
     assert found.mesh.validate().counts == start.counts
     assert 0 < found.swaps <= found.tried <= 200 and found.cost_after < found.cost_before
-    assert found.trace["accepted"].sum() == found.swaps and len(found.trace) == found.tried
+    assert found.history["accepted"].sum() == found.swaps and len(found.history) == found.tried
     assert signal.getsignal(signal.SIGINT) is before
 
 
 @pytest.mark.parametrize("schedule", ["sweep", "queue"])
 def test_a_run_in_parts_is_the_run_in_one(start, schedule, monkeypatch):
     u = problems.functions["franke"]
-    whole = swapped(start, u, "abn", 1, schedule=schedule)
+    whole = swapped(start, u, "abn", norm=1, schedule=schedule)
     for part in (1, 7, 1000):
         monkeypatch.setattr(Watch, "part", part)
-        found = swapped(start, u, "abn", 1, schedule=schedule)
+        found = swapped(start, u, "abn", norm=1, schedule=schedule)
         assert found.mesh.equals(whole.mesh)
         assert (found.swaps, found.sweeps, found.tried) == (whole.swaps, whole.sweeps, whole.tried)
 

@@ -1,27 +1,28 @@
-"""Mend what the theme writes and a screen reader stumbles over, or any reader waits for.
+"""Correct the pages that the theme writes, for screen readers and for faster loading.
 
-Names that contradict the text of a button, and a list without items, are taken out of the
-finished pages. The script of the icons, which is larger than a page, comes after its text.
+Names that contradict the text of a button, and the role of a list without items, are removed
+from the finished pages. The script of the icons, which is larger than a page, loads last.
 """
 
 import re
 from pathlib import Path
 
+SEARCH = 'search-button-field search-button__button pst-js-only" title="Search"'
 MENDED = {
-    'search-button-field search-button__button pst-js-only" title="Search" aria-label="Search"': 'search-button-field search-button__button pst-js-only" title="Search"',
+    f'{SEARCH} aria-label="Search"': SEARCH,
     'data-mode="light" title="Light"': 'data-mode="light"',
     'data-mode="dark"  title="Dark"': 'data-mode="dark"',
     'data-mode="auto"  title="System Settings"': 'data-mode="auto"',
     '<summary aria-label="Toggle hidden content">': "<summary>",
     '<div role="list" class="citation-list">': '<div class="citation-list">',
-    # What follows the reader is the contents of the page; the old name of it means all links.
+    # The scroll spy follows the contents of the page; `.bd-toc-nav` would match all links.
     'data-bs-target=".bd-toc-nav"': 'data-bs-target="#pst-page-toc-nav"',
 }
 ICONS = re.compile(r'<script (src="[^"]*/fontawesome\.js)')
 
 
 def mend(app, exception):
-    """Mend all pages of a finished HTML build; other programs beside them stay as they are."""
+    """Correct all pages of a finished HTML build; JupyterLite beside them is left alone."""
     if exception or app.builder.format != "html":
         return
     for folder in (".", "book", "notebooks"):
@@ -30,7 +31,7 @@ def mend(app, exception):
 
 
 def mend_page(path):
-    """Mend one page; a page that is right stays as it is."""
+    """Correct one page; a page without these faults is not written."""
     before = after = path.read_text(encoding="utf-8")
     for wrong, right in MENDED.items():
         after = after.replace(wrong, right)

@@ -41,7 +41,7 @@ def add_launch_menu(app, pagename, templatename, context, doctree):
 
 
 def hosted(repository, branch, notebook):
-    """Entries of the services that start from a repository; none as long as it has no address."""
+    """Entries of the services that start from a repository; none if the address is unknown."""
     if repository:
         yield entry(
             "Binder",
@@ -71,7 +71,7 @@ def entry(text, url, logo, tooltip):
 
 
 def setup(app):
-    """Register the settings and the menu, after the theme has made its own buttons."""
+    """Register the settings and the menu, after the theme has made its buttons."""
     app.add_config_value("launch_repository", "", "html", [str])
     app.add_config_value("launch_branch", "main", "html", [str])
     app.connect("html-page-context", add_launch_menu, priority=502)

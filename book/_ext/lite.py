@@ -30,7 +30,7 @@ INSTALL = f"%pip install -q '{REQUIREMENT}'"
 NOTE = "JupyterLite: the library and what it needs, once in each session."
 CONTENTS = "files"
 NOTEBOOKS = re.compile("notebooks/")
-# What the page on performance reads.
+# Files that the page on performance reads.
 DATA = ["benchmarks/*.py", "benchmarks/*.json"]
 
 
@@ -47,7 +47,7 @@ def build_lite(app, exception):
 
 
 def _write_contents(app, folder):
-    """The notebooks of the pages, and what one of them reads."""
+    """The notebooks of the pages, and the files that one of them reads."""
     for page in filter(NOTEBOOKS.match, sorted(app.env.found_docs)):
         notebook = nbformat.read(app.srcdir / f"{page}.ipynb", as_version=4)
         # Not by nbformat, which writes text as lists of lines: JupyterLite shows no output of lists.
@@ -57,7 +57,7 @@ def _write_contents(app, folder):
 
 
 def _write_rest(root, folder):
-    """Wheels, Pyodide if it shall be in the site, and settings."""
+    """Wheels, settings, and Pyodide if the site is to carry it."""
     wheels = folder / "pypi"
     wheels.mkdir()
     all_wheels(root, wheels)
@@ -76,7 +76,7 @@ def installing(notebook):
 
 
 def settings(pyodide_url):
-    """Settings of JupyterLite: where Pyodide is; and that no package index is asked."""
+    """Settings of JupyterLite: the address of Pyodide, and no look-up in a package index."""
     kernel = {"pyodideUrl": pyodide_url, "disablePyPIFallback": True}
     return {
         "jupyter-lite-schema-version": 0,
@@ -94,7 +94,7 @@ def _write(path, text):
 
 
 def build_options():
-    """Nothing but the named extensions goes in, whatever else the environment has."""
+    """Options of the build: only the named extensions, whatever else the environment has."""
     installed = Path(sys.prefix, "share/jupyter/labextensions")
     return {
         "LiteBuildConfig": {
@@ -115,6 +115,7 @@ def _run_jupyterlite(folder, target):
         cwd=folder,
         capture_output=True,
         text=True,
+        check=False,
     )
     if done.returncode:
         raise RuntimeError(f"JupyterLite was not built:\n{done.stdout}\n{done.stderr}")

@@ -75,7 +75,7 @@ class Plain:
 
     @lru_cache  # noqa: B019, lives as long as the page is read
     def _resolved(self, role, target):
-        """Words of a reference, and the page that it leads to unless that is this one."""
+        """Words of a reference, and the page that it leads to: none if it is this page."""
         domain, kind = ROLES[role]
         title, target = match.groups() if (match := EXPLICIT.fullmatch(target)) else ("", target)
         node = addnodes.pending_xref(

@@ -1,4 +1,4 @@
-"""Wheels for Python in the browser: the library's own, and those of what it needs there.
+"""Wheels for Python in the browser: the library and the packages that it needs there.
 
 Pyodide has NumPy, SciPy and Matplotlib.  The pure Python packages beside them are
 packed again from the environment that builds the book: nothing is downloaded, and
@@ -12,7 +12,7 @@ from pathlib import Path
 from shutil import copy2, copytree, ignore_patterns
 from tempfile import TemporaryDirectory
 
-REQUIREMENT = "data-dependent-mesh[fem,plot,widgets]"  # of a notebook
+REQUIREMENT = "data-dependent-mesh[fem,plot,widgets]"  # what a notebook installs
 LIBRARY = ["meshlib", "pyproject.toml", "README.md", "LICENSE"]
 CARRIED = [
     "anywidget",
@@ -24,7 +24,7 @@ CARRIED = [
     "typing-extensions",
 ]
 PURE = "Wheel-Version: 1.0\nGenerator: meshlib\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
-# Compiled twins of pure modules, and what belongs to this installation alone.
+# Compiled twins of pure modules, and records of this installation.
 LEFT_OUT = (".so", ".pyd", ".pyc", "INSTALLER", "REQUESTED", "RECORD", "direct_url.json")
 
 
@@ -36,7 +36,7 @@ def all_wheels(root, folder):
 
 
 def library_wheel(root, folder):
-    """Build the library from a clean copy, in which no module of yesterday lies about."""
+    """Build the library from a clean copy, without modules left by an earlier build."""
     with TemporaryDirectory() as copy:
         for name in LIBRARY:
             _copied(Path(root, name), Path(copy, name))
@@ -63,7 +63,7 @@ def packed_again(name, folder):
 
 
 def _travels(file):
-    """Whether a file is Python's: scripts and data of the environment have ``..`` in their path."""
+    """Whether a file goes into the wheel: scripts and data outside the package have ``..`` in their path."""
     return ".." not in file.parts and not file.name.endswith(LEFT_OUT)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..errors import MeshError
+from ..errors import InvalidInputError
 
 
 class Samples:
@@ -30,7 +30,7 @@ class Samples:
     def __init__(self, samples, low, high):
         self.samples = np.asarray(samples)
         if self.samples.ndim != 2 or min(self.samples.shape) < 2 or self.samples.dtype.kind not in "fiu":
-            raise MeshError(
+            raise InvalidInputError(
                 "samples",
                 f"samples have shape {self.samples.shape} and dtype "
                 f"{self.samples.dtype}; give two rows and columns of real numbers at least",
@@ -38,7 +38,7 @@ class Samples:
         self.samples = self.samples.astype(float)
         bad = np.argwhere(~np.isfinite(self.samples))
         if len(bad):
-            raise MeshError(
+            raise InvalidInputError(
                 "finite",
                 f"sample {tuple(bad[0].tolist())} is {self.samples[tuple(bad[0])]}; fill it in or cut it off",
             )

@@ -1,11 +1,16 @@
 """Swapping and moving combined, patch by patch (Algorithm 7.5.1)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import checks, criteria
-from ..errors import MeshError
+from .._typing import Function, Norm
+from ..criteria import norms
+from ..criteria.criterion import Criterion
+from ..errors import InvalidInputError, UnknownNameError
+from ..interpolation.record import Record
 from ..mesh.mesh import Mesh
 from ..mesh.topology import canonical
 from ..mesh.validation import halved
@@ -23,8 +28,8 @@ STEP = np.dtype(
 )
 
 
-@dataclass(frozen=True)
-class Combination:
+@dataclass(frozen=True, repr=False, eq=False)
+class Combination(Record):
     """A mesh swapped and moved, and how it came about.
 
     Attributes
@@ -32,39 +37,42 @@ class Combination:
     mesh : Mesh
     values : (N,) ndarray of float64
         Values of u at its nodes.
+    cost_before, cost_after : float
+        Norm of the cost vector of the start mesh and of the new one.
     sweeps : int
-        Sweeps over all interior nodes.
+        Number of sweeps over all interior nodes.
     period : int
         0 if the last sweep changed nothing; else the number of sweeps after which the
         procedure came back to a mesh that it had left, and would do so for ever; -1 if
         the largest number of sweeps was reached.
     indicator : float
-        Of the start mesh: the sum of its costs, or of their squares.
-    steps : (n,) structured ndarray
+        Indicator of the start mesh: the sum of its costs, or of their squares.
+    history : (n,) structured ndarray
         Every accepted step, with the fields ``sweep``, ``node``, ``way`` (``"swap"`` or
         ``"move"``), the ``gain`` in the indicator of the patch, and the ``indicator`` of
         the whole mesh after it.
     """
 
-    mesh: Mesh
-    values: np.ndarray
+    cost_before: float
+    cost_after: float
     sweeps: int
     period: int
     indicator: float
-    steps: np.ndarray
+    history: np.ndarray
 
 
 def combined(
-    mesh,
-    function,
-    criterion=None,
-    norm=2,
-    ways=WAYS,
-    rim=True,
-    min_angle=None,
-    least_gain=LEAST_GAIN,
-    sweeps=MOST_SWEEPS,
-):
+    mesh: Mesh,
+    function: Function,
+    criterion: str | Criterion | None = None,
+    *,
+    norm: Norm = "L2",
+    ways: str | Sequence[str] = WAYS,
+    rim: bool = True,
+    min_angle: float | None = None,
+    min_relative_gain: float = LEAST_GAIN,
+    max_sweeps: int = MOST_SWEEPS,
+) -> Combination:
     """The mesh after the combined strategy: on each patch the better of swapping and moving.
 
     Node by node, the patch of elements around an interior node is changed in two ways:
@@ -80,7 +88,8 @@ def combined(
     criterion : str or Criterion, optional
         The indicator is the sum of the costs of this criterion, or of their squares.  By
         default that of the min-error criterion, the square of the L2 error.
-    norm : {1, 2}
+    norm : {"L1", "L2"}
+        Also 1 and 2.
     ways : tuple of {"swap", "move"}
         Which ways to try.
     rim : bool
@@ -88,9 +97,9 @@ def combined(
         changes too.  Without them each patch is a domain of its own, as the thesis has it.
     min_angle : float, optional
         Steps that create an angle below this many degrees are refused.
-    least_gain : float
+    min_relative_gain : float
         What a step must gain, relative to the indicator of the start mesh; above 0.
-    sweeps : int
+    max_sweeps : int
         Largest number of sweeps over all interior nodes.
 
     Returns
@@ -105,7 +114,7 @@ def combined(
     Notes
     -----
     *It terminates* with ``rim``, or if costs live on elements, after at most
-    ``1 / least_gain`` steps: a step changes no cost outside what the indicator of its
+    ``1 / min_relative_gain`` steps: a step changes no cost outside what the indicator of its
     patch counts, so that the indicator of the mesh, which is never negative, falls by as
     much.  Without ``rim`` a criterion on edges or nodes may gain on a patch what it loses
     beside it, and the procedure can come back to where it was.  That is noticed after
@@ -117,36 +126,38 @@ def combined(
     Examples
     --------
     >>> from meshlib import problems
-    >>> result = combined(problems.mesh("33"), problems.SR1, sweeps=2)
-    >>> bool(result.steps["indicator"][-1] < 0.1 * result.indicator)
+    >>> result = combined(problems.mesh("33"), problems.SR1, max_sweeps=2)
+    >>> bool(result.history["indicator"][-1] < 0.1 * result.indicator)
     True
     """
     mesh = checks.a_mesh(mesh)
     objective = _objective(mesh, function, criterion, norm, rim, min_angle)
     ways = _ways(ways)
     share = checks.number(
-        least_gain,
-        "least_gain",
+        min_relative_gain,
+        "min_relative_gain",
         np.nextafter(0, 1),
         1,
         "a share above 0 and below 1, since ever smaller gains need never end",
     )
     run = _Run(mesh, objective, ways, share)
-    period = run.sweep(checks.whole(sweeps, 1, "sweeps"))
+    period = run.sweep(checks.whole(max_sweeps, 1, "max_sweeps"))
     green = mesh.green[halved(run.nodes, run.elements, mesh.green) & run.untouched(mesh)]
     result = Mesh._trusted(run.nodes, run.elements, green)
-    return Combination(result, run.values, run.count, period, run.indicator, np.array(run.steps, dtype=STEP))
+    costs = (of ** (1 / objective.norm) for of in (run.indicator, objective.of(result)))
+    history = np.array(run.steps, dtype=STEP)
+    return Combination(result, run.values, *costs, run.count, period, run.indicator, history)
 
 
 def _objective(mesh, function, criterion, norm, rim, min_angle):
     if not callable(function):
-        raise MeshError(
+        raise InvalidInputError(
             "type",
             f"u is a {type(function).__name__}; give a function u(x, y), "
             "since nodes move to where there is no value",
         )
-    checks.choice(norm, NORMS, "norm")
-    criterion = criteria.min_error(function, DEGREE) if criterion is None else criterion
+    norm = norms.checked(norm, NORMS)
+    criterion = criteria.min_error(function, degree=DEGREE) if criterion is None else criterion
     swap = prepared(mesh, function, criterion, norm, min_angle, None, None)
     return Objective(function, swap.criterion, norm, swap.tolerance, swap.limits, bool(rim))
 
@@ -156,7 +167,7 @@ def _ways(ways):
     for way in ways:
         checks.choice(way, WAYS, "way")
     if not ways:
-        raise MeshError("unknown", "no way to change a patch is given; name 'swap', 'move' or both")
+        raise UnknownNameError("unknown", "no way to change a patch is given; name 'swap', 'move' or both")
     return ways
 
 

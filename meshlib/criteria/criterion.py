@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import checks
-from ..errors import MeshError
+from ..errors import InvalidInputError
 from ..interpolation.interpolant import Interpolant
 from ..kernels import user_costs
 from ..mesh.topology import from_smallest, quadrilaterals
@@ -57,7 +57,7 @@ class Criterion:
     def __post_init__(self):
         checks.choice(self.on, PLACES, "place")
         if not callable(self.cost):
-            raise MeshError("type", f"the cost of {self.name!r} is {self.cost!r}; give a function")
+            raise InvalidInputError("type", f"the cost of {self.name!r} is {self.cost!r}; give a function")
 
     def costs(self, mesh, values):
         """The cost vector of a mesh: one cost for each edge, element or node."""

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import checks
-from ..errors import MeshError
+from .._typing import Function
+from ..errors import InvalidInputError
 from ..geometry import quadrature
 from ..kernels import codes, user_costs
 from .cost_functions import element_errors
@@ -39,7 +40,7 @@ class _ErrorOnElement:
         return user_costs.error_of(plain, tuple(map(tuple, points.tolist())), tuple(weights.tolist()))
 
 
-def min_error(function, degree=ERROR_DEGREE):
+def min_error(function: Function, *, degree: int = ERROR_DEGREE) -> Criterion:
     """The min-error criterion (section 2.4.1) for a known function u.
 
     Parameters
@@ -60,7 +61,7 @@ def min_error(function, degree=ERROR_DEGREE):
     >>> from meshlib import Interpolant, delaunay
     >>> mesh, u = delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]), lambda x, y: x ** 2
     >>> cost = min_error(u).costs(mesh, u)
-    >>> bool(np.isclose(np.hypot(*cost), Interpolant(mesh, u).l2_error(u, rule="exact")))
+    >>> bool(np.isclose(np.hypot(*cost), Interpolant(mesh, u).l2_error(u)))
     True
     """
 
@@ -78,7 +79,14 @@ def min_error(function, degree=ERROR_DEGREE):
     )
 
 
-def pointwise(name, on, cost, title="", unit=None):
+def pointwise(
+    name: str,
+    on: str,
+    cost: Callable[..., float],
+    *,
+    title: str = "",
+    unit: Callable[[float, float], float] | None = None,
+) -> Criterion:
     """A user-defined criterion, given by the cost of a single edge or element.
 
     The procedure then runs as it does for built-in criteria: compiled by numba where
@@ -111,12 +119,12 @@ def pointwise(name, on, cost, title="", unit=None):
     >>> def length(px, py, pu, qx, qy, qu, lx, ly, lu, rx, ry, ru):
     ...     return sqrt((px - qx) ** 2 + (py - qy) ** 2 + (pu - qu) ** 2)  # of the edge in space
     >>> short = pointwise("length", "edge", length)
-    >>> swapped(problems.mesh("33"), problems.SR2, short, norm=1).swaps
+    >>> swapped(problems.mesh("33"), problems.SR2, short, norm="L1").swaps
     11
     """
     checks.choice(on, PLACES[:2], "place")
     if not callable(cost):
-        raise MeshError("type", f"the cost of {name!r} is {cost!r}; give a function")
+        raise InvalidInputError("type", f"the cost of {name!r} is {cost!r}; give a function")
 
     def vectorised(*points):
         return _one_by_one(cost, on, points)

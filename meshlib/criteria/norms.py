@@ -1,16 +1,30 @@
 """Orders on cost vectors (section 2.2): L1, L2, maximum and lexicographic."""
 
+from collections.abc import Hashable
+
 import numpy as np
 
 from .. import checks
+from .._typing import Norm
 
 NORMS = (1, 2, "max", "lexicographic")
-RELATIVE, ABSOLUTE = 1e-12, 1e-11
+SPELLINGS = {"L1": 1, "L2": 2, np.inf: "max"}  # other names of the first three
+RELATIVE, ABSOLUTE = 1e-12, 1e-11  # least gain, relative to the old cost and to a typical one
 
 
-def checked(norm):
-    """The norm, one of 1, 2, "max" and "lexicographic"; infinity is another "max"."""
-    return "max" if np.isscalar(norm) and norm == np.inf else checks.choice(norm, NORMS, "norm")
+def checked(norm: Norm, allowed: tuple[Norm, ...] = NORMS) -> Norm:
+    """The norm as it stands in ``NORMS``, if it is one of those that are allowed.
+
+    Examples
+    --------
+    >>> checked("L2"), checked(float("inf")), checked(1)
+    (2, 'max', 1)
+    """
+    plain = SPELLINGS.get(norm, norm) if isinstance(norm, Hashable) else norm
+    if np.isscalar(plain) and plain in allowed:
+        return plain
+    spelt = {short: name for name, short in SPELLINGS.items() if isinstance(name, str)}
+    return checks.choice(norm, tuple(spelt.get(n, n) for n in allowed), "norm")
 
 
 def measure(costs, norm, grain=0.0):

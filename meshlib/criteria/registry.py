@@ -3,8 +3,10 @@
 import numpy as np
 
 from .. import checks
-from ..errors import MeshError
+from .._typing import FloatArray, Norm, Values
+from ..errors import InvalidInputError, UnknownNameError
 from ..kernels import codes
+from ..mesh.mesh import Mesh
 from .cost_functions import (
     angle_between_normals,
     deviations_from_linear_polynomials,
@@ -33,7 +35,7 @@ __all__ = [
 ]
 
 
-def costs(mesh, values, criterion="jnd"):
+def costs(mesh: Mesh, values: Values, criterion: str | Criterion = "jnd") -> FloatArray:
     """The cost vector H(T, u) of section 2.4.
 
     Parameters
@@ -57,7 +59,14 @@ def costs(mesh, values, criterion="jnd"):
     return get(criterion).costs(mesh, values)
 
 
-def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
+def prefers(
+    mesh_a: Mesh,
+    mesh_b: Mesh,
+    values: Values | tuple[Values, Values] | None = None,
+    criterion: str | Criterion = "jnd",
+    *,
+    norm: Norm = "L2",
+) -> bool:
     """Whether the criterion prefers the first mesh to the second (section 2.2).
 
     Parameters
@@ -67,7 +76,8 @@ def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
         Nodal values of both meshes; a pair if their nodes differ.  Criteria that
         depend on geometry alone need none.
     criterion : str or Criterion
-    norm : {1, 2, "max", "lexicographic"}
+    norm : {"L1", "L2", "max", "lexicographic"}
+        1, 2 and infinity are other names of the first three.
 
     Returns
     -------
@@ -84,7 +94,7 @@ def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
     """
     criterion = get(criterion)
     if values is None and not criterion.geometric:
-        raise MeshError("shape", f"criterion {criterion.name!r} depends on the data; give values")
+        raise InvalidInputError("shape", f"criterion {criterion.name!r} depends on the data; give values")
     pair = values if isinstance(values, tuple) else (values, values)
     first, second = (
         criterion.costs(mesh, np.zeros(mesh.n_nodes) if v is None else v)
@@ -95,25 +105,25 @@ def prefers(mesh_a, mesh_b, values=None, criterion="jnd", norm=2):
 
 # -- the registry ------------------------------------------------------------------------
 
-_registry = {}
+_registry: dict[str, Criterion] = {}
 
 
-def register(criterion):
+def register(criterion: Criterion) -> Criterion:
     """File a criterion under its name, for widgets, `swapped` and `refined`; returns it."""
     if not isinstance(criterion, Criterion):
-        raise MeshError("type", f"this is a {type(criterion).__name__}; register a Criterion")
+        raise InvalidInputError("type", f"this is a {type(criterion).__name__}; register a Criterion")
     if criterion.name in _registry:
-        raise MeshError("duplicate", f"a criterion {criterion.name!r} exists; choose another name")
+        raise InvalidInputError("duplicate", f"a criterion {criterion.name!r} exists; choose another name")
     _registry[criterion.name] = criterion
     return criterion
 
 
-def unregister(name):
+def unregister(name: str) -> None:
     """Take a criterion out of the registry."""
     del _registry[checks.choice(name, names(), "criterion")]
 
 
-def names(on=None):
+def names(on: str | None = None) -> tuple[str, ...]:
     """Names of the registered criteria, of one place (edge, element, node) or of all.
 
     Examples
@@ -124,7 +134,7 @@ def names(on=None):
     return tuple(name for name, c in _registry.items() if on in (None, c.on))
 
 
-def get(criterion):
+def get(criterion: str | Criterion) -> Criterion:
     """The criterion of that name; a Criterion is returned as it is.
 
     Raises
@@ -139,12 +149,12 @@ def get(criterion):
     >>> get("jmd")
     Traceback (most recent call last):
         ...
-    meshlib.errors.MeshError: unknown: criterion 'jmd' is not known; did you mean 'jnd'? (known: ...)
+    meshlib.errors.UnknownNameError: unknown: criterion 'jmd' is not known; did you mean 'jnd'? (known: ...)
     """
     if isinstance(criterion, Criterion):
         return criterion
-    if criterion == "min-error":
-        raise MeshError("unknown", "'min-error' needs the function u; pass criteria.min_error(u)")
+    if criterion == "min-error" and criterion not in _registry:
+        raise UnknownNameError("unknown", "'min-error' needs the function u; pass criteria.min_error(u)")
     return _registry[checks.choice(criterion, names(), "criterion")]
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .. import checks
-from ..errors import MeshError
+from ..errors import InvalidInputError, InvalidMeshError
 from ..geometry.predicates import incircle, nearly_flat, orientation
 from ..support.independent import independent
 from .mesh import Mesh
@@ -59,10 +59,11 @@ def delaunay(nodes):
     elements = _flipped_to_delaunay(nodes, _without_flat(nodes, _qhull(nodes)))
     unused = checks.unnamed(elements, len(nodes))
     if unused.size:
-        raise MeshError(
+        raise InvalidMeshError(
             "unused node",
             f"node {unused[0]} is too close to others to be meshed; remove it or move it",
             unused,
+            unused.size,
         )
     return Mesh._trusted(nodes, canonical(elements))
 
@@ -70,7 +71,9 @@ def delaunay(nodes):
 def _refuse_collinear(nodes):
     far = np.abs(nodes - nodes[0]).max(axis=1).argmax()
     if not orientation(nodes[0], nodes[far], nodes).any():
-        raise MeshError("collinear", f"all {len(nodes)} nodes lie on one line; add a node off the line")
+        raise InvalidInputError(
+            "collinear", f"all {len(nodes)} nodes lie on one line; add a node off the line"
+        )
 
 
 def _qhull(nodes):
@@ -116,7 +119,7 @@ def _unfolded(mesh, edges):
 
 
 def _nearly_collinear():
-    return MeshError(
+    return InvalidInputError(
         "collinear", "the nodes are too nearly on one line to be meshed; scale the flat direction up first"
     )
 

@@ -2,10 +2,12 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property, wraps
+from typing import Any
 
 import numpy as np
 
 from .. import checks
+from ..support.drawing import drawn
 from . import topology
 
 
@@ -229,7 +231,7 @@ class Mesh:
         >>> Mesh([[0, 0], [1, 0], [0, 1]], [[0, 2, 1]]).validate()
         Traceback (most recent call last):
             ...
-        meshlib.errors.MeshError: orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse its nodes
+        meshlib.errors.InvalidMeshError: orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse its nodes
         """
         from . import validation
 
@@ -251,6 +253,34 @@ class Mesh:
         mesh._store("green", checks.green_array(green))
         object.__setattr__(mesh, "_valid", True)
         return mesh
+
+    def plot(self, ax: Any = None, **options: Any) -> Any:
+        """Draw the mesh.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            By default the axes of a new figure.
+        **options
+            As for `meshlib.plotting.plot_mesh`, for example ``nodes=True``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        See Also
+        --------
+        meshlib.Interpolant.plot
+
+        Examples
+        --------
+        >>> from matplotlib import pyplot
+        >>> ax = Mesh([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]]).plot(nodes=True, ticks=True)
+        >>> len(ax.lines)
+        1
+        >>> pyplot.close(ax.figure)
+        """
+        return drawn("plot_mesh", self, ax, options)
 
     # -- the data structures of section 4.4 ------------------------------------------
 

@@ -1,54 +1,85 @@
-"""Geometric quality of a mesh: as the thesis's tables print it (section 4.5.2), and more (7.2)."""
+"""Geometric quality of a mesh (sections 4.5.2 and 7.2)."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from .._typing import FloatArray, IntArray
 from ..checks import a_mesh
+from .mesh import Mesh
 
 EQUILATERAL = np.pi / 3
 NEXT, PREVIOUS = [1, 2, 0], [2, 0, 1]
-AT_ONCE = 4096  # elements, whose coordinates fit a processor's nearest memory
-MEASURES = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
+AT_ONCE = 4096  # number of elements whose coordinates fit a processor's nearest memory
+MEASURES = {
+    "minimum_angle": "Minimum angle",
+    "maximum_angle": "Maximum angle",
+    "skewness": "Skewness",
+    "aspect_ratio": "Aspect ratio",
+    "shortest_edge": "Shortest edge",
+    "longest_edge": "Longest edge",
+}
+LARGE_IS_GOOD = ("minimum_angle", "aspect_ratio", "shortest_edge")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class Quality:
-    """Three measures of each element, and their mean and maximum.
+    """Measures of the shape of each element, with their mean and their worst value.
 
     Attributes
     ----------
-    maximum_angle : (T,) ndarray of float64
-        Largest angle of each element, in degrees.
+    minimum_angle, maximum_angle : (T,) ndarray of float64
+        Smallest and largest angle of each element, in degrees.
     skewness : (T,) ndarray of float64
         Mean deviation of the angles from 60 degrees, in radians; 0 if equilateral.
     aspect_ratio : (T,) ndarray of float64
         4 sqrt(3) area / sum of squared edge lengths; 1 if equilateral, 0 if flat.
+    shortest_edge, longest_edge : (T,) ndarray of float64
+        Lengths of the shortest and the longest edge of each element, in the unit of the
+        coordinates.
     """
 
-    maximum_angle: np.ndarray
-    skewness: np.ndarray
-    aspect_ratio: np.ndarray
+    minimum_angle: FloatArray
+    maximum_angle: FloatArray
+    skewness: FloatArray
+    aspect_ratio: FloatArray
+    shortest_edge: FloatArray
+    longest_edge: FloatArray
 
     @property
-    def mean(self):
+    def mean(self) -> dict[str, float]:
         """Mean of each measure over the elements, by name."""
         return {name: float(getattr(self, name).mean()) for name in MEASURES}
 
     @property
-    def max(self):
+    def min(self) -> dict[str, float]:
+        """Minimum of each measure over the elements, by name."""
+        return {name: float(getattr(self, name).min()) for name in MEASURES}
+
+    @property
+    def max(self) -> dict[str, float]:
         """Maximum of each measure over the elements, by name."""
         return {name: float(getattr(self, name).max()) for name in MEASURES}
 
-    def __str__(self):
-        lines = [f"{'Measure':<14} {'mean':>9} {'max':>9}"]
+    @property
+    def worst(self) -> dict[str, float]:
+        """Value of each measure at its worst element: the least where large is good, by name."""
+        return {name: (self.min if name in LARGE_IS_GOOD else self.max)[name] for name in MEASURES}
+
+    def __str__(self) -> str:
+        lines = [f"{'Measure':<14} {'mean':>10} {'worst':>10}"]
+        mean, worst = self.mean, self.worst
         for name, title in MEASURES.items():
-            lines.append(f"{title:<14} {self.mean[name]:9.4f} {self.max[name]:9.4f}")
+            lines.append(f"{title:<14} {mean[name]:10.4g} {worst[name]:10.4g}")
         return "\n".join(lines)
 
+    def __repr__(self) -> str:
+        shown = (f"{name}={value:.4g}" for name, value in self.worst.items())
+        return f"Quality({len(self.skewness)} elements, worst: {', '.join(shown)})"
 
-def quality(mesh):
-    """Maximum angle, skewness and aspect ratio of every element.
+
+def quality(mesh: Mesh) -> Quality:
+    """Angles, skewness, aspect ratio and edge lengths of every element.
 
     Parameters
     ----------
@@ -63,20 +94,27 @@ def quality(mesh):
     MeshError
         If the mesh is not valid.
 
+    See Also
+    --------
+    uniformity, valence
+
     Notes
     -----
-    Section 4.5.2 of the thesis.  With the angles in radians the skewness equals
-    2/3 max(largest - pi/3, pi/3 - smallest), and with the angles A, B, C the aspect
-    ratio equals sqrt(3) / (cot A + cot B + cot C).
+    Section 4.5.2 of the thesis has the largest angle, the skewness and the aspect ratio.
+    With the angles in radians the skewness equals 2/3 max(largest - pi/3, pi/3 - smallest),
+    and with the angles A, B, C the aspect ratio equals sqrt(3) / (cot A + cot B + cot C).
 
     Examples
     --------
     >>> from meshlib import delaunay
     >>> print(quality(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])))
-    Measure             mean       max
-    Maximum angle    90.0000   90.0000
-    Skewness          0.3491    0.3491
-    Aspect ratio      0.8660    0.8660
+    Measure              mean      worst
+    Minimum angle          45         45
+    Maximum angle          90         90
+    Skewness           0.3491     0.3491
+    Aspect ratio        0.866      0.866
+    Shortest edge           1          1
+    Longest edge        1.414      1.414
     """
     mesh = a_mesh(mesh)
     found = np.empty((len(MEASURES), mesh.n_elements))
@@ -91,9 +129,12 @@ def _measures(x, y):
     """The measures of elements with the coordinates x, y, (3, T) each, in the order of `Quality`."""
     angle, cross, squared_edges = _angles(x, y)
     return (
+        np.degrees(angle.min(axis=0)),
         np.degrees(angle.max(axis=0)),
         np.abs(angle - EQUILATERAL).mean(axis=0),
         2 * np.sqrt(3) * np.abs(cross[0]) / squared_edges.sum(axis=0),
+        np.sqrt(squared_edges.min(axis=0)),
+        np.sqrt(squared_edges.max(axis=0)),
     )
 
 
@@ -104,7 +145,7 @@ def _angles(x, y):
     return np.arctan2(np.abs(cross), ux * vx + uy * vy), cross, ux**2 + uy**2
 
 
-def uniformity(mesh):
+def uniformity(mesh: Mesh) -> FloatArray:
     """How much the area of each element differs from those of its neighbours.
 
     Parameters
@@ -134,7 +175,7 @@ def uniformity(mesh):
     return np.maximum(ratio, 1 / ratio).max(axis=1)
 
 
-def valence(mesh):
+def valence(mesh: Mesh) -> IntArray:
     """Number of elements that have each node in common (section 7.2).
 
     Parameters
@@ -144,7 +185,7 @@ def valence(mesh):
     Returns
     -------
     (N,) ndarray of int64
-        Of sum 3 T, whatever the mesh.
+        Their sum is 3 T, whatever the mesh.
 
     Raises
     ------
@@ -161,7 +202,7 @@ def valence(mesh):
     return np.bincount(mesh.elements.ravel(), minlength=mesh.n_nodes)
 
 
-def angles(corners):
+def angles(corners: FloatArray) -> FloatArray:
     """The three angles of each element, by arctan2 of cross and dot product.
 
     Parameters

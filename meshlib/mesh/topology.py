@@ -11,7 +11,7 @@ node k + 1 to node k + 2 (counted modulo 3), so the element lies to its left::
 
 import numpy as np
 
-from ..errors import MeshError
+from ..errors import InvalidMeshError
 from ..kernels import compiled_for_work
 
 TAILS, HEADS = [1, 2, 0], [2, 0, 1]
@@ -123,7 +123,9 @@ def edge_numbers(edges, n_nodes, pairs):
     missing = np.flatnonzero((edges[place] != pairs).any(axis=1))
     if missing.size:
         i, j = pairs[missing[0]]
-        raise MeshError("edge", f"nodes {i} and {j} are not joined by an edge", (i, j))
+        raise InvalidMeshError(
+            "edge", f"nodes {i} and {j} are not joined by an edge", pairs[missing].ravel(), missing.size
+        )
     return place
 
 
@@ -161,7 +163,7 @@ def _refuse_shared_half_edges(elements, place):
         first, second = order[again[0]] // 3, order[again[0] + 1] // 3
         k = order[again[0]] % 3
         a, b = sorted(int(n) for n in (elements[first, TAILS[k]], elements[first, HEADS[k]]))
-        raise MeshError(
+        raise InvalidMeshError(
             "overlap",
             f"elements {first} and {second} lie on the same side of edge "
             f"({a}, {b}); remove one or reverse its nodes",

@@ -1,13 +1,14 @@
 """The clauses of Definitions 2.0.1 and 2.0.2, one small function each.
 
-A clause takes a mesh and returns nothing if it holds, else the message and the
-numbers of the offending items.  All decisions are exact.
+A clause takes a mesh and returns nothing if it holds, else the message about the first
+breach, the numbers of all offending items, and the number of breaches.  All decisions are
+exact.
 """
 
 import numpy as np
 
 from ..checks import distinct_nodes, unnamed
-from ..errors import MeshError
+from ..errors import InvalidMeshError
 from ..geometry.predicates import orientation
 from .box_tree import BoxTree, bounds, least
 from .overlaps import common_area, first_overlap
@@ -16,10 +17,10 @@ MIDDLE = 1e-9  # how far, relatively, the node of a green pair may lie off the m
 
 
 def require(clause, mesh):
-    """Raise a MeshError named after the clause if it does not hold."""
+    """Raise an error named after the clause if it does not hold."""
     found = clause(mesh)
     if found:
-        raise MeshError(clause.__name__.replace("_", " "), *found)
+        raise InvalidMeshError(clause.__name__.replace("_", " "), *found)
 
 
 def index_range(mesh):
@@ -27,9 +28,12 @@ def index_range(mesh):
     bad = np.argwhere((mesh.elements < 0) | (mesh.elements >= len(mesh.nodes)))
     if bad.size:
         t, k = bad[0]
+        from_one = mesh.elements.min() == 1 and mesh.elements.max() == len(mesh.nodes)
+        hint = "; they seem to be numbered from 1: subtract 1" if from_one else ""
         return (
-            f"element {t} names node {mesh.elements[t, k]}; nodes are numbered 0 to {len(mesh.nodes) - 1}",
-            (t,),
+            f"element {t} names node {mesh.elements[t, k]}; nodes are numbered 0 to {len(mesh.nodes) - 1}{hint}",
+            np.unique(bad[:, 0]),
+            len(bad),
         )
 
 
@@ -42,8 +46,10 @@ def duplicate(mesh):
     order = np.lexsort((np.arange(len(rows)), *rows.T[::-1]))
     same = np.flatnonzero((np.diff(rows[order], axis=0) == 0).all(axis=1))
     if same.size:
-        i, j = order[same[0]], order[same[0] + 1]
-        return f"elements {i} and {j} have the same nodes {_tuple(rows[i])}; remove one", (i, j)
+        pairs = np.column_stack([order[same], order[same + 1]])
+        i, j = pairs[0]
+        message = f"elements {i} and {j} have the same nodes {_tuple(rows[i])}; remove one"
+        return message, pairs.ravel(), len(pairs)
 
 
 def degenerate(mesh):
@@ -53,7 +59,8 @@ def degenerate(mesh):
         t = flat[0]
         return (
             f"element {t} with nodes {_tuple(mesh.elements[t])} has no area; remove it or move a node",
-            (t,),
+            flat,
+            flat.size,
         )
 
 
@@ -62,7 +69,8 @@ def orientation_(mesh):
     clockwise = np.flatnonzero(_turns(mesh) < 0)
     if clockwise.size:
         t = clockwise[0]
-        return (f"element {t} with nodes {_tuple(mesh.elements[t])} is clockwise; reverse its nodes", (t,))
+        message = f"element {t} with nodes {_tuple(mesh.elements[t])} is clockwise; reverse its nodes"
+        return message, clockwise, clockwise.size
 
 
 orientation_.__name__ = "orientation"
@@ -72,7 +80,7 @@ def unused_node(mesh):
     """Every node belongs to an element."""
     unused = unnamed(mesh.elements, mesh.n_nodes)
     if unused.size:
-        return f"node {unused[0]} belongs to no element; remove it or mesh it", unused
+        return f"node {unused[0]} belongs to no element; remove it or mesh it", unused, unused.size
 
 
 def overlap(mesh):
@@ -108,13 +116,19 @@ def hanging_node(mesh):
 def green_pair(mesh):
     """Every green pair halves a larger element, and no two pairs share an element."""
     n = mesh.n_elements
-    for t in mesh.green[(mesh.green < 0) | (mesh.green >= n)]:
-        return f"a pair names element {t}; elements are numbered 0 to {n - 1}", (t,)
+    unknown = mesh.green[(mesh.green < 0) | (mesh.green >= n)]
+    if unknown.size:
+        message = f"a pair names element {unknown[0]}; elements are numbered 0 to {n - 1}"
+        return message, unknown, unknown.size
     numbers, uses = np.unique(mesh.green, return_counts=True)
-    for t in numbers[uses > 1]:
-        return f"element {t} is in two places; leave one of its pairs out", (t,)
-    for i, j in mesh.green[~halved(mesh.nodes, mesh.elements, mesh.green)]:
-        return f"elements {i} and {j} do not halve a larger one; leave the pair out", (i, j)
+    again = numbers[uses > 1]
+    if again.size:
+        return f"element {again[0]} is in two places; leave one of its pairs out", again, again.size
+    whole = mesh.green[~halved(mesh.nodes, mesh.elements, mesh.green)]
+    if whole.size:
+        i, j = whole[0]
+        message = f"elements {i} and {j} do not halve a larger one; leave the pair out"
+        return message, whole.ravel(), len(whole)
 
 
 CLAUSES = (index_range, duplicate, degenerate, orientation_, unused_node, overlap, hanging_node, green_pair)

@@ -1,11 +1,14 @@
 """Node movement: edges as springs, patch by patch (sections 2.3.3, 2.4.3 and 3.3)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from .. import checks
-from ..errors import MeshError
+from .._typing import ArrayLike
+from ..errors import InvalidInputError
+from ..interpolation.record import Record
 from ..kernels import for_work
 from ..mesh.boundary_sides import sides_of
 from ..mesh.mesh import Mesh
@@ -19,31 +22,44 @@ STEPS = 3  # of plain Python, to move a node once
 FREE = (0.0, 0.0, 0.0, 0.0)  # the rail of a node that is on none
 
 
-@dataclass(frozen=True)
-class Smoothing:
+@dataclass(frozen=True, repr=False, eq=False)
+class Smoothing(Record):
     """A mesh with moved nodes and how it came about.
 
     Attributes
     ----------
     mesh : Mesh
-        The same elements on moved nodes.
+        The elements of the start mesh on moved nodes.
+    values : (N,) ndarray of float64, or None
+        Values at the moved nodes of the function that the springs follow, if there is one.
+    cost_before, cost_after : float
+        Energy of the springs, half the sum of k |e|^2 over the edges e, with their constants
+        k on that mesh, of which the largest is 1.  It falls if the constants stay.
     sweeps : int
-        Sweeps over all nodes that may move.
+        Number of sweeps over all nodes that may move.
     movement : float
-        Largest movement of a node in the last sweep.
+        Largest movement of a node in the last sweep, in the unit of the coordinates.
     refused : int
-        Moves refused in the last sweep, because they would tangle the mesh.
+        Number of moves refused in the last sweep, because they would tangle the mesh.
     """
 
-    mesh: Mesh
+    cost_before: float
+    cost_after: float
     sweeps: int
     movement: float
     refused: int
 
 
 def smoothed(
-    mesh, springs=None, min_area=None, sweeps=MOST_SWEEPS, tolerance=STILL, sliding=False, halvings=None
-):
+    mesh: Mesh,
+    springs: ArrayLike | Callable[[Mesh], ArrayLike] | None = None,
+    *,
+    min_area: float | None = None,
+    max_sweeps: int = MOST_SWEEPS,
+    min_movement: float = STILL,
+    sliding: bool = False,
+    halvings: int | None = None,
+) -> Smoothing:
     """The mesh whose edges, taken as springs, are in equilibrium.
 
     Parameters
@@ -57,9 +73,9 @@ def smoothed(
     min_area : float, optional
         A move that makes an element smaller than this counts as tangling
         (section 3.3); by default every move that keeps all areas positive is made.
-    sweeps : int
+    max_sweeps : int
         Largest number of sweeps.
-    tolerance : float
+    min_movement : float
         The iteration ends when no node moves further than this share of the extent
         of the domain.
     sliding : bool
@@ -95,14 +111,14 @@ def smoothed(
     (1, True)
     """
     mesh = checks.a_mesh(mesh)
-    constants = springs(mesh) if callable(springs) else springs
+    constants = _spring_constants(mesh, springs(mesh) if callable(springs) else springs)
     area = _limit(min_area, "min_area")
     low, high = mesh.box
-    still = _limit(tolerance, "tolerance") * (high - low).max()
-    sweeps = checks.whole(sweeps, 1, "sweeps")
+    still = _limit(min_movement, "min_movement") * (high - low).max()
+    most = checks.whole(max_sweeps, 1, "max_sweeps")
     halvings = checks.whole(HALVINGS * callable(springs) if halvings is None else halvings, 0, "halvings")
-    patches = _Patches(mesh, sliding, _spring_constants(mesh, constants), sweeps)
-    for count in range(1, sweeps + 1):  # noqa: B007 (the result tells how many it took)
+    patches = _Patches(mesh, sliding, constants, most)
+    for count in range(1, most + 1):  # noqa: B007 (the result tells how many it took)
         if callable(springs) and count > 1:
             patches.follow(springs)
         movement, refused = patches.sweep(halvings, 2 * area)
@@ -111,7 +127,17 @@ def smoothed(
     nodes = patches.nodes
     green = mesh.green[halved(nodes, mesh.elements, mesh.green)]  # the others can no longer be undone
     moved = Mesh._trusted(nodes, mesh.elements, green)
-    return Smoothing(moved, count, float(movement), int(refused))
+    after = _spring_constants(moved, springs(moved)) if callable(springs) else constants
+    function = getattr(springs, "function", None)
+    values = checks.nodal_values(moved, function) if callable(function) else None
+    energies = _energy(mesh, constants), _energy(moved, after)
+    return Smoothing(moved, values, *energies, count, float(movement), int(refused))
+
+
+def _energy(mesh, constants):
+    """Half the sum of k |e|^2 over the edges e."""
+    start, end = mesh.nodes[mesh.edges].transpose(1, 0, 2)
+    return float(constants @ ((end - start) ** 2).sum(axis=1)) / 2
 
 
 def _limit(value, what):
@@ -123,16 +149,17 @@ def _spring_constants(mesh, springs):
         return np.ones(mesh.n_edges)
     springs = checks.numeric(springs, "springs")
     if springs.shape != (mesh.n_edges,):
-        raise MeshError(
+        raise InvalidInputError(
             "shape",
             f"springs have shape {springs.shape}; give one constant for each of the {mesh.n_edges} edges",
         )
     bad = np.flatnonzero(~(np.isfinite(springs) & (springs >= 0)))
     if bad.size:
-        raise MeshError(
+        raise InvalidInputError(
             "range",
             f"the spring constant of edge {bad[0]} is {springs[bad[0]]}; give finite numbers of at least 0",
             bad,
+            bad.size,
         )
     return springs / (springs.max(initial=0) or 1)  # only ratios matter, and sums stay finite
 

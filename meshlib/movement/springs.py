@@ -1,12 +1,12 @@
 """Spring constants that follow the data (section 2.4.3)."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 
 import numpy as np
 
 from .. import checks
-from ..errors import MeshError
+from .._typing import Function
+from ..errors import InvalidInputError
 
 FIRST, SECOND = 0.0, 100.0
 POWER = 0.4
@@ -55,14 +55,15 @@ class DataSprings:
     0.060 0.015
     """
 
-    function: Callable
+    function: Function
+    _: KW_ONLY
     first: float = FIRST
     second: float = SECOND
     power: float = POWER
 
     def __post_init__(self):
         if not callable(self.function):
-            raise MeshError(
+            raise InvalidInputError(
                 "type",
                 f"the function is {self.function!r}; give u(x, y), for nodes move to where no value is known",
             )

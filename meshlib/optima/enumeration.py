@@ -13,7 +13,7 @@ nodes on a simply connected domain to any other (Lawson 1972)::
 import numpy as np
 
 from .. import checks
-from ..errors import MeshError
+from ..errors import InvalidInputError
 from ..mesh.topology import canonical
 from ..kernels.costs import from_smallest
 from .empty_triangles import Candidates
@@ -53,7 +53,7 @@ def enumerated(mesh, most=MOST_MESHES):
     mesh, most = checks.a_mesh(mesh), checks.whole(most, 1, "most")
     nodes, edges, triangles = mesh.counts
     if nodes - edges + triangles != 1:  # Euler
-        raise MeshError("domain", "the domain has a hole or is in parts; give one without")
+        raise InvalidInputError("domain", "the domain has a hole or is in parts; give one without")
     turns = Candidates(mesh).turns
     start = frozenset(map(tuple, canonical(mesh.elements).tolist()))
     found, known = [start], {start}
@@ -62,7 +62,9 @@ def enumerated(mesh, most=MOST_MESHES):
         known.update(new)
         found.extend(dict.fromkeys(new))
         if len(found) > most:
-            raise MeshError("range", f"there are more than {most} meshes; give fewer nodes or raise most")
+            raise InvalidInputError(
+                "range", f"there are more than {most} meshes; give fewer nodes or raise most"
+            )
     return np.array([sorted(elements) for elements in found], dtype=np.int32)
 
 

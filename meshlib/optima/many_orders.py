@@ -2,60 +2,66 @@
 
 import sys
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from .. import checks
+from .._typing import FloatArray, IntArray, Norm, Values
+from ..criteria.criterion import Criterion
 from ..errors import missing_extra
+from ..interpolation.record import Record
 from ..mesh.mesh import Mesh
 from ..mesh.topology import canonical
 from ..support.progress import bar
+from ..support.random_numbers import permutation
 from ..swapping.swapped import prepared
 
 ORDERS_AT_ONCE = 500  # how many a worker takes at most
 PARTS = 64  # into which fewer orders are cut, so that every worker gets some
 
 
-@dataclass(frozen=True)
-class LocalOptima:
+@dataclass(frozen=True, repr=False, eq=False)
+class LocalOptima(Record):
     """The distinct meshes that many edge orders lead to, in the order they were found.
 
     Attributes
     ----------
-    start : Mesh
+    mesh : Mesh
+        The optimum of least cost; of several the one found first.
+    values : (N,) ndarray of float64
+        The nodal values given.
+    cost_before, cost_after : float
+        Norm of the cost vector of the start mesh and of ``mesh``.
     elements : (M, T, 3) ndarray of int32
         Each optimum: elements with their smallest node first, in lexicographic order.
     costs : (M,) ndarray of float64
-        Norm of the cost vector of each.
+        Norm of the cost vector of each optimum.
     optimum : (n,) ndarray of int64
         For each order the number of the optimum it leads to.
     seed : int
         Order k is ``order_of(seed, k, n_edges)``.
     """
 
-    start: Mesh = field(repr=False)
-    elements: np.ndarray = field(repr=False)
-    costs: np.ndarray = field(repr=False)
-    optimum: np.ndarray = field(repr=False)
+    cost_before: float
+    cost_after: float
+    elements: IntArray
+    costs: FloatArray
+    optimum: IntArray
     seed: int
 
-    def __len__(self):
+    def __len__(self) -> int:
+        """Number of distinct optima."""
         return len(self.elements)
 
     @property
-    def counts(self):
-        """(M,) int64: how many orders lead to each optimum."""
+    def counts(self) -> IntArray:
+        """(M,) int64: number of orders that lead to each optimum."""
         return np.bincount(self.optimum, minlength=len(self))
 
-    @property
-    def best(self):
-        """The mesh of least cost; of several the one found first."""
-        return self.mesh(self.costs.argmin())
-
-    def mesh(self, number):
-        """An optimum as a Mesh."""
-        return Mesh._trusted(self.start.nodes, self.elements[number])
+    def mesh_of(self, number: int) -> Mesh:
+        """The optimum of that number as a Mesh."""
+        return Mesh._trusted(self.mesh.nodes, self.elements[number])
 
 
 def order_of(seed, number, n_edges):
@@ -74,35 +80,36 @@ def order_of(seed, number, n_edges):
     >>> order_of(0, 1, 5).tolist()
     [1, 4, 3, 0, 2]
     """
-    return np.random.default_rng([seed, number]).permutation(n_edges)
+    return permutation([seed, number], n_edges)
 
 
 def local_optima(
-    mesh,
-    values,
-    criterion="jnd",
-    norm=2,
-    orders=100,
-    seed=0,
-    min_angle=None,
-    min_area=None,
-    tolerance=None,
-    workers=None,
-    progress=False,
-):
+    mesh: Mesh,
+    values: Values,
+    criterion: str | Criterion = "jnd",
+    *,
+    norm: Norm = "L2",
+    orders: int = 100,
+    seed: int = 0,
+    min_angle: float | None = None,
+    min_area: float | None = None,
+    min_gain: float | None = None,
+    workers: int | None = None,
+    progress: bool = False,
+) -> LocalOptima:
     """Run the local optimisation procedure with many random edge orders (section 6.3).
 
     Parameters
     ----------
-    mesh, values, criterion, norm, min_angle, min_area, tolerance
+    mesh, values, criterion, norm, min_angle, min_area, min_gain
         As for `meshlib.swapped`.
     orders : int
-        How many orders.
+        Number of orders.
     seed : int
-        Of the orders, at least 0.
+        Seed of the orders, at least 0.
     workers : int, optional
-        Processes to share the work, -1 for one on each core, not 0.  By default what
-        ``joblib.parallel_config`` says, else one.  The result does not depend on it.
+        Number of processes that share the work, -1 for one on each core, not 0.  By default
+        what ``joblib.parallel_config`` says, else one.  The result does not depend on it.
     progress : bool
         Whether to show a progress bar.
 
@@ -129,13 +136,13 @@ def local_optima(
     The best of a hundred orders, and how many different meshes there were:
 
     >>> from meshlib import problems
-    >>> found = local_optima(problems.mesh("33"), problems.SR2, "abn", norm=1)
-    >>> found.best
+    >>> found = local_optima(problems.mesh("33"), problems.SR2, "abn", norm="L1")
+    >>> found.mesh
     Mesh(33 nodes, 88 edges, 56 elements)
     >>> print(f"{len(found)} optima cost {found.costs.min():.1f} to {found.costs.max():.1f}")
     38 optima cost 16.8 to 22.1
     """
-    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance)
+    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
     orders, seed = checks.whole(orders, 1, "orders"), checks.whole(seed, 0, "seed")
     workers = None if workers is None else checks.workers(workers)
     size = min(ORDERS_AT_ONCE, -(-orders // PARTS))
@@ -161,13 +168,15 @@ def _merged(procedure, seed, parts):
     elements = np.frombuffer(b"".join(known), dtype=np.int32).reshape(len(known), -1, 3)
     meshes = (Mesh._trusted(procedure.mesh.nodes, found) for found in elements)
     costs = np.array([procedure.cost(mesh) for mesh in meshes])
-    return LocalOptima(procedure.mesh, elements, costs, np.concatenate(optimum), seed)
+    best = Mesh._trusted(procedure.mesh.nodes, elements[costs.argmin()])
+    ends = procedure.cost(procedure.mesh), float(costs.min())
+    return LocalOptima(best, procedure.values, *ends, elements, costs, np.concatenate(optimum), seed)
 
 
 def shared(function, parts, workers=None, progress=False, unit="part", total=None):
     """Results of ``function(*part)`` for each part, in order, from many workers.
 
-    A generator: who stops asking stops the work.  With ``progress`` a bar is shown,
+    A generator; closing it cancels the work.  With ``progress`` a bar is shown,
     which knows the end if ``total`` is given.
     """
     results = _in_turn(function, parts) if _is_one(workers) else _in_parallel(function, parts, workers)

@@ -13,40 +13,59 @@ covered, which is once at the boundary.
 """
 
 from dataclasses import dataclass
+from time import monotonic
 
 import numpy as np
 
 from .. import checks, criteria
-from ..errors import MeshError
+from .._typing import Norm, Values
+from ..criteria import norms
+from ..criteria.criterion import Criterion
+from ..errors import InvalidInputError, NotReachedError, UnknownNameError
+from ..interpolation.record import Record
 from ..mesh.mesh import Mesh
 from .empty_triangles import Candidates
 
-MOST_NODES, SECONDS = 120, 60.0
+MOST_NODES = 120
+SECONDS = 60.0  # time limit of the solver
 LARGEST_COST = 1e6  # given to the solver, whose tolerances are absolute
 SCALES = (1.0, 1e6, 1e9)  # of the largest cost, for the multipliers
 
 
-@dataclass(frozen=True)
-class Optimal:
+@dataclass(frozen=True, repr=False, eq=False)
+class Optimal(Record):
     """The best mesh and the proof.
 
     Attributes
     ----------
     mesh : Mesh
-    cost : float
-        Norm of its cost vector.
+        The best mesh; if not ``proved``, the best that was found in time.
+    values : (N,) ndarray of float64
+        The nodal values given.
+    cost_before, cost_after : float
+        Norm of the cost vector of the mesh given and of the best mesh.
     bound : float
         No mesh of these nodes on this domain costs less, to rounding.  It follows from
         multipliers of the constraints by weak duality and needs no trust in the solver;
         where it is below the cost, that nothing lies between rests on the solver.
+    proved : bool
+        Whether the solver ended before the time was up.
     """
 
-    mesh: Mesh
-    cost: float
+    cost_before: float
+    cost_after: float
     bound: float
+    proved: bool
 
 
-def optimal(mesh, values, criterion="jnd", norm=2, seconds=SECONDS):
+def optimal(
+    mesh: Mesh,
+    values: Values,
+    criterion: str | Criterion = "jnd",
+    *,
+    norm: Norm = "L2",
+    seconds: float = SECONDS,
+) -> Optimal:
     """The best mesh with the same nodes and the same domain (Definition 3.1.1).
 
     Parameters
@@ -56,9 +75,11 @@ def optimal(mesh, values, criterion="jnd", norm=2, seconds=SECONDS):
     values : (N,) array_like of float, or callable
     criterion : str or Criterion
         On edges or elements, for example ``criteria.min_error(u)``.
-    norm : {1, 2}
+    norm : {"L1", "L2"}
+        Also 1 and 2.
     seconds : float
-        How long the solver may take.
+        Time limit, in seconds, of the search and of the bound each.  When it is up, the
+        best mesh so far is returned, with ``proved`` false.
 
     Returns
     -------
@@ -68,7 +89,7 @@ def optimal(mesh, values, criterion="jnd", norm=2, seconds=SECONDS):
     ------
     MeshError
         If there are too many nodes, the criterion or the norm is no sum over edges or
-        elements, or the time is up.
+        elements, or the time is up before any mesh was found.
 
     Notes
     -----
@@ -83,22 +104,27 @@ def optimal(mesh, values, criterion="jnd", norm=2, seconds=SECONDS):
 
     >>> from meshlib import problems, swapped
     >>> mesh, u = problems.mesh("33"), problems.SR2
-    >>> print(f"{swapped(mesh, u, 'abn', 1).cost_after:.2f} {optimal(mesh, u, 'abn', 1).cost:.2f}")
+    >>> found = [method(mesh, u, "abn", norm="L1").cost_after for method in (swapped, optimal)]
+    >>> print("{:.2f} {:.2f}".format(*found))
     21.74 16.77
     """
     mesh, criterion = checks.a_mesh(mesh), criteria.get(criterion)
     values = checks.nodal_values(mesh, values)
-    checks.choice(norm, (1, 2), "norm")
+    norm = norms.checked(norm, (1, 2))
+    seconds = checks.number(seconds, "seconds", 0, np.inf, "a finite number of seconds of at least 0")
     if criterion.on == "node":
-        raise MeshError("unknown", f"criterion {criterion.name!r} is on nodes; give one on edges or elements")
+        raise UnknownNameError(
+            "unknown", f"criterion {criterion.name!r} is on nodes; give one on edges or elements"
+        )
     if mesh.n_nodes > MOST_NODES:
-        raise MeshError("range", f"the mesh has {mesh.n_nodes} nodes; give at most {MOST_NODES}")
+        raise InvalidInputError("range", f"the mesh has {mesh.n_nodes} nodes; give at most {MOST_NODES}")
     candidates = Candidates(mesh)
     costs, matrix, right = _model(candidates, values, criterion, norm)
-    chosen = _solved(costs, matrix, right, seconds)[: len(candidates)]
-    best = Mesh(mesh.nodes, candidates.triangles[chosen > 0.5]).validate()
-    cost = float(np.linalg.norm(criterion.costs(best, values), norm))
-    return Optimal(best, cost, min(cost, _bound(costs, matrix, right) ** (1 / norm)))
+    chosen, proved = _solved(costs, matrix, right, seconds)
+    best = Mesh(mesh.nodes, candidates.triangles[chosen[: len(candidates)] > 0.5]).validate()
+    before, cost = (float(np.linalg.norm(criterion.costs(m, values), norm)) for m in (mesh, best))
+    bound = min(cost, _bound(costs, matrix, right, seconds) ** (1 / norm))
+    return Optimal(best, values, before, cost, bound, proved)
 
 
 def _model(candidates, values, criterion, norm):
@@ -116,11 +142,11 @@ def _model(candidates, values, criterion, norm):
 
 
 def _solved(costs, matrix, right, seconds):
-    """The optimal choice, rounded."""
+    """The best choice found, rounded, and whether it is proved to be optimal."""
     from scipy.optimize import Bounds, LinearConstraint, milp
 
     scale = LARGEST_COST / (costs.max() or 1.0)
-    options = {"mip_rel_gap": 0, "time_limit": float(seconds)}
+    options = {"mip_rel_gap": 0, "time_limit": seconds}
     found = milp(
         scale * costs,
         integrality=np.ones(len(costs)),
@@ -128,18 +154,23 @@ def _solved(costs, matrix, right, seconds):
         options=options,
         constraints=LinearConstraint(matrix, right, right),
     )
-    if not found.success:
-        raise MeshError("solver", f"no proof within {seconds:g} seconds; give fewer nodes or more seconds")
-    return np.rint(found.x)
+    if found.x is None:
+        raise NotReachedError(
+            "solver", f"no mesh found within {seconds:g} s; give fewer nodes or more seconds"
+        )
+    return np.rint(found.x), bool(found.success)
 
 
-def _bound(costs, matrix, right):
+def _bound(costs, matrix, right, seconds):
     """The best lower bound m . right + sum of min(0, costs - m A) over some multipliers m."""
     from scipy.optimize import linprog
 
-    best, unit = 0.0, costs.max() or 1.0
+    best, unit, end = 0.0, costs.max() or 1.0, monotonic() + seconds
     for scale in SCALES:
-        relaxed = linprog(scale / unit * costs, A_eq=matrix, b_eq=right, bounds=(0, None))
+        options = {"time_limit": max(end - monotonic(), 0.0)}
+        relaxed = linprog(scale / unit * costs, A_eq=matrix, b_eq=right, bounds=(0, None), options=options)
+        if relaxed.eqlin.marginals is None or not relaxed.success:
+            break
         m = relaxed.eqlin.marginals * unit / scale
         best = max(best, right @ m + np.minimum(costs - matrix.T @ m, 0).sum())
     return best

@@ -106,7 +106,7 @@ class Functions(dict):
     >>> problems.functions["sr1"]
     Traceback (most recent call last):
         ...
-    meshlib.errors.MeshError: unknown: function 'sr1' is not known; did you mean 'SR1'? (known: ...)
+    meshlib.errors.UnknownNameError: unknown: function 'sr1' is not known; did you mean 'SR1'? (known: ...)
     """
 
     def __missing__(self, name):

@@ -6,6 +6,7 @@ from importlib.resources import files
 import numpy as np
 
 from .. import checks
+from .._typing import FloatArray, IntArray
 from ..mesh.delaunay import delaunay
 from ..mesh.mesh import Mesh
 from .analytic_functions import TestFunction, functions
@@ -19,10 +20,21 @@ REFINEMENTS_TO_81 = 3
 
 SR1, SR2, SR3, DD1 = (functions[name] for name in ("SR1", "SR2", "SR3", "DD1"))
 
-names = ("33", "33-refined", "81", "33-franke")
+NAMES = ("33", "33-refined", "81", "33-franke")
 
 
-def nodes(name):
+def names() -> tuple[str, ...]:
+    """Names of the node sets and start meshes.
+
+    Examples
+    --------
+    >>> names()
+    ('33', '33-refined', '81', '33-franke')
+    """
+    return NAMES
+
+
+def nodes(name: str) -> FloatArray:
     """A node set by name.
 
     Parameters
@@ -43,11 +55,11 @@ def nodes(name):
     >>> nodes("33")[:2].tolist()
     [[1.0, 1.0], [1.0, 0.0]]
     """
-    return _arrays(checks.choice(name, names, "node set"))[0]
+    return _arrays(checks.choice(name, NAMES, "node set"))[0]
 
 
 @cache
-def mesh(name):
+def mesh(name: str) -> Mesh:
     """The start mesh on a node set.
 
     Parameters
@@ -66,11 +78,11 @@ def mesh(name):
     >>> mesh("33").counts, mesh("81").counts
     ((33, 88, 56), (81, 208, 128))
     """
-    found, _, elements = _arrays(checks.choice(name, names, "node set"))
+    found, _, elements = _arrays(checks.choice(name, NAMES, "node set"))
     return Mesh(found, elements).validate()
 
 
-def order(name):
+def order(name: str) -> IntArray:
     """The order in which `swapped` inspects the edges of a start mesh.
 
     Parameters
@@ -90,7 +102,7 @@ def order(name):
     >>> mesh("81").edges[order("81")[:2]].tolist()
     [[0, 25], [9, 25]]
     """
-    edges = _arrays(checks.choice(name, names, "node set"))[1]
+    edges = _arrays(checks.choice(name, NAMES, "node set"))[1]
     return mesh(name).edge_numbers(edges)
 
 

@@ -3,6 +3,9 @@
 import numpy as np
 
 from .. import checks, criteria
+from .._typing import ArrayLike, IntArray, Values
+from ..criteria.criterion import Criterion
+from ..mesh.mesh import Mesh
 
 MARKS = ("element", "edge", "node", "density")
 TIES = ("first", "all")
@@ -10,7 +13,16 @@ TIED = 1e-9  # costs this close, relative to the largest, count as equal
 WHOLE = 1e-9  # 0.1 * 30 is 3, whatever binary fractions say
 
 
-def marked(mesh, values, criterion="abn", fraction=0.2, mark="element", ties="first", order=None):
+def marked(
+    mesh: Mesh,
+    values: Values,
+    criterion: str | Criterion = "jnd",
+    *,
+    fraction: float = 0.2,
+    mark: str = "element",
+    ties: str = "first",
+    order: ArrayLike | None = None,
+) -> IntArray:
     """Numbers of the elements with the worst costs.
 
     Parameters
@@ -47,7 +59,7 @@ def marked(mesh, values, criterion="abn", fraction=0.2, mark="element", ties="fi
     --------
     >>> from meshlib import problems
     >>> u = problems.functions["SR1"]
-    >>> len(marked(problems.mesh("33"), u, "abn", 0.2, "edge"))
+    >>> len(marked(problems.mesh("33"), u, "abn", fraction=0.2, mark="edge"))
     13
     """
     mesh = checks.a_mesh(mesh)

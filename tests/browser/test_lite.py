@@ -9,7 +9,7 @@ from pathlib import Path
 
 import nbformat
 import pytest
-from pyodide_files import RELEASE, Unavailable, folder
+from pyodide_files import RELEASE, UnavailableError, folder
 from visiting import served
 
 NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
@@ -47,7 +47,7 @@ def pyodide():
     """The folder that stands for the content delivery network."""
     try:
         return folder()
-    except Unavailable as reason:
+    except UnavailableError as reason:
         pytest.skip(f"without Pyodide {RELEASE} no chapter ran in the browser: {reason}")
 
 

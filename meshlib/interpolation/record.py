@@ -1,0 +1,61 @@
+"""What every operation returns: a mesh, its nodal values, and how it came about."""
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+
+import numpy as np
+
+from .._typing import FloatArray
+from ..errors import InvalidInputError
+from ..mesh.mesh import Mesh
+from .interpolant import Interpolant
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Record:
+    """The result of an operation.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        The new mesh.
+    values : (N,) ndarray of float64, or None
+        Nodal values on the new mesh; None after nodes were moved without a function.
+
+    Notes
+    -----
+    The records of single operations add ``cost_before`` and ``cost_after``, the cost of the
+    start mesh and of the new one by what the operation lowers; ``history``, a structured
+    array with a row for each step, where there are steps; and what is special to them.
+    All can be pickled.
+
+    See Also
+    --------
+    meshlib.swapped, meshlib.refined, meshlib.smoothed, meshlib.combined, meshlib.annealed,
+    meshlib.optimal, meshlib.local_optima, meshlib.approximate
+    """
+
+    mesh: Mesh
+    values: FloatArray | None
+
+    @cached_property
+    def interpolant(self) -> Interpolant:
+        """The piecewise linear function on the new mesh.
+
+        Raises
+        ------
+        MeshError
+            If the nodes were moved and no function gives the values there.
+        """
+        if self.values is None:
+            raise InvalidInputError(
+                "values",
+                "nodes have moved, and no function gives the values there; "
+                "make Interpolant(record.mesh, u) with a function u",
+            )
+        return Interpolant(self.mesh, self.values)
+
+    def __repr__(self) -> str:
+        numbers = ((f.name, getattr(self, f.name)) for f in fields(self) if f.repr)
+        shown = (f"{name}={value!r}" for name, value in numbers if not isinstance(value, (np.ndarray, tuple)))
+        return f"{type(self).__name__}({', '.join(shown)})"
