@@ -13,7 +13,6 @@ from threading import RLock
 from types import FunctionType, ModuleType
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from . import colours, costs, element_shapes, half_edges, location, lop, raster, schedules, springs

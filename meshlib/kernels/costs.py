@@ -116,9 +116,7 @@ def user_edge_cost(given: UserCost, point: Floats, quad: Quad) -> float:
 
 
 @inlined
-def side_cost(
-    given: UserCost | None, code: int, state: State, corners: Corners, own: Face, j: int
-) -> float:
+def side_cost(given: UserCost | None, code: int, state: State, corners: Corners, own: Face, j: int) -> float:
     """Cost of the edge a-b of the element (a, b, c) with this face, and the half-edge j beyond.
 
     It is 0 on the boundary, where j is negative.

@@ -16,7 +16,7 @@ from math import floor, inf
 from typing import NamedTuple
 
 from .element_shapes import INSIDE, corner, gradient, is_flat, minus
-from .groups import Corners, Floats, Ints, Point, Vector
+from .groups import Corners, Floats, Ints, Vector
 from .marks import inlined, kernel
 
 SLACK = 1e-12  # error of a crossing that may miss a point, as a fraction of a cell
