@@ -251,8 +251,6 @@ def choice(value, options, what):
 
 def permutation(order, size, what="edge"):
     """``order`` as an array that names every edge (element, node) once, or a MeshError."""
-    if order is None:
-        return np.arange(size)
     order = _regular(order, "order")
     if order.shape != (size,) or order.dtype.kind not in "iu":
         raise InvalidInputError(

@@ -245,13 +245,18 @@ class Mesh:
         return self if getattr(self, "_valid", False) else self.validate()
 
     @classmethod
-    def _trusted(cls, nodes, elements, green=None):
-        """A mesh made by an operation that keeps a valid mesh valid; it takes the arrays as they are."""
+    def _trusted(cls, nodes, elements, green=None, *, connected_as=None):
+        """A mesh made by an operation that keeps a valid mesh valid; it takes the arrays as they are.
+
+        The edges of ``connected_as``, a mesh with these elements on other nodes, are not derived again.
+        """
         mesh = object.__new__(cls)
         mesh._store("nodes", nodes)
         mesh._store("elements", np.asarray(elements, dtype=np.int32))
         mesh._store("green", checks.green_array(green))
         object.__setattr__(mesh, "_valid", True)
+        if connected_as is not None:
+            mesh.__dict__["_edge_table"] = connected_as._edge_table
         return mesh
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
