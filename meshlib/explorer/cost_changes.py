@@ -19,7 +19,7 @@ LOCAL_COSTS = ("old", "new")  # of a tried swap, as fields of a trace
 
 def has_formula(criterion: Criterion) -> bool:
     """Whether ``js/costs.js`` computes the costs of a criterion."""
-    return not criterion.is_own
+    return not criterion.is_user_defined
 
 
 def changes(
