@@ -1,18 +1,22 @@
 """Checks of what a user hands in, made before anything is computed from it."""
 
 import difflib
+from collections.abc import Collection
 from numbers import Real
+from typing import Any, TypeVar
 
 import numpy as np
 
+from ._typing import AnyMesh, ArrayLike, BoolArray, FloatArray, Function, IntArray, NDArray, Values
 from .errors import CostError, InvalidInputError, InvalidMeshError, UnknownNameError
 
-MINIMUM_NODES = 3
-LARGEST_VALUE = 1e120  # squares of gradients of such values are still numbers, and of their inverses too
-LARGEST_NUMBER = np.iinfo(np.int32).max
+MINIMUM_NODES = 3  # number of nodes of a mesh, or of a closed boundary
+LARGEST_VALUE = 1e120  # nodal value; squares of gradients, and of their inverses, are finite up to here
+
+T = TypeVar("T")
 
 
-def node_array(nodes):
+def node_array(nodes: ArrayLike) -> FloatArray:
     """Nodes as an (N, 2) float64 array of finite coordinates, or a MeshError."""
     nodes = numeric(nodes, "nodes")
     if nodes.ndim != 2 or nodes.shape[1] != 2:
@@ -33,38 +37,42 @@ def node_array(nodes):
     return nodes
 
 
-def element_array(elements):
+def element_array(elements: ArrayLike) -> NDArray[np.int32]:
     """Elements as a (T, 3) int32 array, or a MeshError."""
     elements = _numbers(elements, "elements", 3, "a (T, 3) array of node numbers")
+    largest = np.iinfo(np.int32).max
     if not len(elements):
         raise InvalidInputError("shape", "there are no elements; give at least one")
-    if elements.max() > LARGEST_NUMBER:
-        bad = np.argwhere(elements > LARGEST_NUMBER)
+    if elements.max() > largest:
+        bad = np.argwhere(elements > largest)
         t, k = bad[0]
         raise InvalidMeshError(
             "index range",
-            f"element {t} names node {elements[t, k]}; the largest number is {LARGEST_NUMBER}",
+            f"element {t} names node {elements[t, k]}; the largest number is {largest}",
             bad[:, 0],
             len(bad),
         )
     return elements.astype(np.int32)
 
 
-def green_array(green):
+def green_array(green: ArrayLike | None) -> NDArray[np.int32]:
     """Pairs of element numbers as a (G, 2) int32 array, none by default, or a MeshError."""
     if green is None:
         return np.empty((0, 2), dtype=np.int32)
     return _numbers(green, "green pairs", 2, "a (G, 2) array of element numbers").astype(np.int32)
 
 
-def node_pairs(pairs):
+def node_pairs(pairs: ArrayLike) -> NDArray[np.int64]:
     """Pairs of node numbers as an (m, 2) int64 array, the smaller first, or a MeshError."""
-    pairs = _numbers(pairs, "pairs", 2, "an (m, 2) array of node numbers")
-    return np.sort(pairs, axis=1).astype(np.int64)
+    found = _numbers(pairs, "pairs", 2, "an (m, 2) array of node numbers")
+    return np.sort(found, axis=1).astype(np.int64)
 
 
-def each_edge_once(numbers, edges):
-    """Raise a MeshError that names an edge given twice or not at all."""
+def each_edge_once(numbers: IntArray, edges: IntArray) -> None:
+    """Raise a MeshError that names an edge given twice or not at all.
+
+    ``numbers`` are the rows of ``edges``, (E, 2), that have been given.
+    """
     missing = np.setdiff1d(np.arange(len(edges)), numbers)
     order = np.argsort(numbers, kind="stable")
     again = np.flatnonzero(np.diff(numbers[order]) == 0)
@@ -86,17 +94,17 @@ def each_edge_once(numbers, edges):
         )
 
 
-def marked(array, what):
-    """Three columns, the third a marker, or a MeshError."""
-    array = np.asarray(array)
-    if array.ndim != 2 or array.shape[1] != 3:
+def marked(array: ArrayLike, what: str) -> NDArray[Any]:
+    """Three columns, the third a boundary marker, or a MeshError."""
+    found = np.asarray(array)
+    if found.ndim != 2 or found.shape[1] != 3:
         raise InvalidInputError(
-            "shape", f"{what} have shape {array.shape}; give three columns, the third the boundary marker"
+            "shape", f"{what} have shape {found.shape}; give three columns, the third the boundary marker"
         )
-    return array
+    return found
 
 
-def markers(what, given, derived):
+def markers(what: str, given: NDArray[Any], derived: BoolArray) -> None:
     """Raise a MeshError that names a marker which disagrees with the mesh."""
     wrong = np.flatnonzero((given != 0) != derived)
     if wrong.size:
@@ -110,7 +118,7 @@ def markers(what, given, derived):
         )
 
 
-def distinct_nodes(nodes):
+def distinct_nodes(nodes: FloatArray) -> None:
     """Raise a MeshError that names the first pair of coinciding nodes."""
     points = np.sort(np.ascontiguousarray(nodes).view(np.complex128), axis=None)  # by x, then by y
     if (points[1:] != points[:-1]).all():
@@ -128,21 +136,19 @@ def distinct_nodes(nodes):
         )
 
 
-def unnamed(elements, n_nodes):
+def unnamed(elements: IntArray, n_nodes: int) -> IntArray:
     """Numbers of the nodes that belong to no element, in ascending order."""
     used = np.zeros(n_nodes, dtype=bool)
     used[elements] = True
     return np.flatnonzero(~used)
 
 
-def nodal_values(mesh, values):
-    """Values of u at the nodes as an (N,) float64 array.
+def nodal_values(mesh: AnyMesh, values: Values) -> FloatArray:
+    """Values of u at the nodes as an (N,) float64 array, or a MeshError.
 
     ``values`` is such an array or a vectorised function u(x, y).
     """
-    if callable(values):
-        values = values(*mesh.nodes.T)
-    values = numeric(values, "values")
+    values = numeric(values(*mesh.nodes.T) if callable(values) else values, "values")
     if values.shape != (mesh.n_nodes,):
         raise InvalidInputError(
             "shape", f"values have shape {values.shape}; give one value for each of the {mesh.n_nodes} nodes"
@@ -163,7 +169,7 @@ def nodal_values(mesh, values):
     return values
 
 
-def function_values(function, x, y):
+def function_values(function: Function, x: FloatArray, y: FloatArray) -> NDArray[Any]:
     """Values of a vectorised function, finite and of the shape of x and y, or a MeshError."""
     found = np.asarray(function(x, y))
     if found.shape != x.shape or found.dtype.kind not in "fiu":
@@ -181,8 +187,8 @@ def function_values(function, x, y):
     return found
 
 
-def cost_vector(costs, size, what):
-    """What a criterion returned as (size,) floats of at least 0, or a MeshError."""
+def cost_vector(costs: ArrayLike, size: int, what: str) -> FloatArray:
+    """Costs that a criterion returned, as (size,) finite floats of at least 0, or a MeshError."""
     costs = np.asarray(costs, dtype=float)
     if costs.shape != (size,):
         raise InvalidInputError(
@@ -202,34 +208,34 @@ def cost_vector(costs, size, what):
     return costs
 
 
-def a_mesh(mesh):
-    """The mesh, validated once in its life, or a MeshError if it is something else."""
+def a_mesh(mesh: T) -> T:
+    """The mesh, validated unless it has been before, or a MeshError if it is something else."""
     if hasattr(mesh, "_checked"):
         return mesh._checked()
     hint = "take its .mesh" if hasattr(mesh, "mesh") else "make a meshlib.Mesh or use meshlib.delaunay"
     raise InvalidInputError("type", f"a mesh is needed, this is a {type(mesh).__name__}; {hint}")
 
 
-def fraction(value):
+def fraction(value: float) -> float:
     """A number in [0, 1], or a MeshError."""
     return number(value, "fraction", 0, np.nextafter(1, 2), "a number from 0 to 1, 0.2 for 20 %")
 
 
-def number(value, what, least, above, remedy):
+def number(value: float, what: str, least: float, above: float, remedy: str) -> float:
     """A real number with least <= number < above, or a MeshError."""
     if not (isinstance(value, Real) and least <= value < above):
         raise InvalidInputError("range", f"{what} is {value!r}; give {remedy}")
     return float(value)
 
 
-def whole(value, least, what):
+def whole(value: int, least: int, what: str) -> int:
     """A whole number of at least ``least``, or a MeshError."""
     if not (isinstance(value, (int, np.integer)) and value >= least):
         raise InvalidInputError("range", f"{what} is {value!r}; give a whole number of at least {least}")
     return int(value)
 
 
-def workers(value):
+def workers(value: int) -> int:
     """A number of processes, -1 for one on each core, or a MeshError."""
     if not (isinstance(value, (int, np.integer)) and value >= -1 and value != 0):
         raise InvalidInputError(
@@ -238,9 +244,9 @@ def workers(value):
     return int(value)
 
 
-def choice(value, options, what):
-    """``value`` if it is one of the options, else an error with the nearest one."""
-    if np.isscalar(value) and value in options:
+def choice(value: T, options: Collection[T], what: str) -> T:
+    """``value`` if it is one of the options, else a MeshError that proposes the nearest one."""
+    if isinstance(value, (str, Real)) and value in options:
         return value
     by_text = {str(option).lower(): option for option in options}
     near = difflib.get_close_matches(value.lower(), by_text, n=1) if isinstance(value, str) else ()
@@ -249,7 +255,7 @@ def choice(value, options, what):
     raise UnknownNameError("unknown", f"{what} {value!r} is not known{hint} (known: {listed})")
 
 
-def permutation(order, size, what="edge"):
+def permutation(order: ArrayLike, size: int, what: str = "edge") -> NDArray[np.int64]:
     """``order`` as an array that names every edge (element, node) once, or a MeshError."""
     order = _regular(order, "order")
     if order.shape != (size,) or order.dtype.kind not in "iu":
@@ -268,12 +274,13 @@ def permutation(order, size, what="edge"):
     return order.astype(np.int64)
 
 
-def _counted(number, noun):
-    """A number with its noun."""
+def _counted(number: int, noun: str) -> str:
+    """A number and its noun, in the plural unless it is 1."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
-def _regular(array, what):
+def _regular(array: Any, what: str) -> NDArray[Any]:
+    """An array, NaN where it was masked, or a MeshError if the rows differ in length."""
     try:
         return array.astype(float).filled(np.nan) if np.ma.is_masked(array) else np.asarray(array)
     except ValueError:
@@ -282,8 +289,8 @@ def _regular(array, what):
         ) from None
 
 
-def _numbers(array, what, columns, shape):
-    """A table of whole numbers with that many columns."""
+def _numbers(array: ArrayLike, what: str, columns: int, shape: str) -> NDArray[Any]:
+    """A table of whole numbers with this number of columns, or a MeshError that tells the shape."""
     array = _regular(array, what)
     if array.ndim != 2 or array.shape[1] != columns:
         raise InvalidInputError("shape", f"{what} have shape {array.shape}; give {shape}")
@@ -292,7 +299,7 @@ def _numbers(array, what, columns, shape):
     return array
 
 
-def numeric(array, what):
+def numeric(array: ArrayLike, what: str) -> FloatArray:
     """Real numbers as a float64 array, or a MeshError."""
     array = _regular(array, what)
     if array.dtype.kind not in "fiu":

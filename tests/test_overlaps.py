@@ -179,8 +179,8 @@ def test_batches_of_any_size_give_the_same(few, most, monkeypatch):
     hanging = Mesh([[2, -1], [4, -1], [3.5, 0]], [[0, 1, 2]])
     broken = [united(mesh, extra, shift) for extra in (small, hanging) for shift in ((0, 0), (3, 0))]
     expected = [verdict(wrong) for wrong in broken]
-    monkeypatch.setattr(box_tree, "FEW_ROWS", few)
-    monkeypatch.setattr(box_tree, "PAIRS_AT_ONCE", most)
+    monkeypatch.setattr(box_tree.BoxTree, "few_rows", few)
+    monkeypatch.setattr(box_tree.BoxTree, "pairs_at_once", most)
     mesh.validate()
     assert expected == [verdict(wrong) for wrong in broken]
     assert {clause for clause, _ in expected} == {"overlap", "hanging node"}

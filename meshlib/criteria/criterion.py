@@ -9,6 +9,7 @@ from .. import checks
 from .._typing import ArrayLike, FloatArray, IntArray, Values
 from ..errors import InvalidInputError
 from ..interpolation.interpolant import Interpolant
+from ..kernels import user_costs
 from ..mesh.mesh import Mesh
 from ..mesh.topology import from_smallest, quadrilaterals
 
@@ -85,12 +86,10 @@ class Criterion:
         """The function that kernels call for the cost of one edge or element, if it is user-defined."""
         if self.pointwise is None:
             return None
-        from ..kernels import user_costs
-
         return user_costs.pointer(self.pointwise, self.on)
 
     @property
-    def is_own(self) -> bool:
+    def is_user_defined(self) -> bool:
         """Whether a user wrote the cost, so that it may return a negative number or NaN."""
         return self.code < 0 or self.pointwise is not None
 

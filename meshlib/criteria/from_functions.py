@@ -10,7 +10,7 @@ from .. import checks
 from .._typing import FloatArray, Function
 from ..errors import InvalidInputError
 from ..geometry import quadrature
-from ..kernels import codes
+from ..kernels import codes, user_costs
 from .cost_functions import element_errors
 from .criterion import PLACES, Criterion
 
@@ -33,8 +33,6 @@ class _ErrorOnElement:
     degree: int
 
     def __call__(self) -> Callable[..., float]:
-        from ..kernels import user_costs
-
         points, weights = quadrature.rule(self.degree)
         plain = getattr(self.function, "function", self.function)  # a TestFunction wraps its formula
         return user_costs.error_of(plain, tuple(map(tuple, points.tolist())), tuple(weights.tolist()))
@@ -78,7 +76,7 @@ def min_error(function: Function, *, degree: int = 6) -> Criterion:
         cost,
         "L2 error",
         lambda extent, height: height * extent,
-        codes.OWN_ELEMENT,
+        codes.USER_ELEMENT,
         pointwise=_ErrorOnElement(function, degree),
     )
 
@@ -146,7 +144,7 @@ def pointwise(
     def vectorised(*points: FloatArray) -> FloatArray:
         return _one_by_one(cost, on, points)
 
-    code = codes.OWN_EDGE if on == "edge" else codes.OWN_ELEMENT
+    code = codes.USER_EDGE if on == "edge" else codes.USER_ELEMENT
     unit = unit or (lambda extent, height: 0.0)
     found = Criterion(name, on, vectorised, title, unit, code, pointwise=_Given(cost))
     if found.pointer is None:
@@ -160,12 +158,7 @@ def pointwise(
 
 def _one_by_one(cost: Callable[..., float], on: str, points: tuple[FloatArray, ...]) -> FloatArray:
     """The cost of each edge or element, from (n, 3) arrays of its four or three points."""
-    from ..kernels import user_costs
-    from ..kernels.backend import flat, readable
-
     given = user_costs.pointer(_Given(cost), on)
     if given is None:
         return np.array([cost(*numbers) for numbers in np.concatenate(points, axis=1).tolist()])
-    costs = flat(np.empty(len(points[0])))
-    user_costs.evaluated(given, readable(np.concatenate([*points, points[0]][:4], axis=1)), costs)
-    return np.asarray(costs)
+    return user_costs.evaluated(given, np.concatenate([*points, points[0]][:4], axis=1))

@@ -1,24 +1,31 @@
 """Exact signs of the two geometric predicates, for arrays of points.
 
 A determinant in floating point comes with a bound on its rounding error
-[shewchuk1997]_.  Where the bound decides the sign it is used; the few points
-where it does not are scaled to integers, which Python multiplies exactly, and
-put through the *same* formula.
+[shewchuk1997]_.  Where the value exceeds the bound, its sign is right.  The few points
+where it does not are scaled to integers, which Python multiplies exactly, and the formula
+is evaluated once more.
 """
 
+from collections.abc import Callable, Iterable
 from itertools import combinations
+from typing import Any, TypeAlias
 
 import numpy as np
 
-ROUNDOFF = 2.0**-53
-ORIENTATION_BOUND = (3 + 16 * ROUNDOFF) * ROUNDOFF
-INCIRCLE_BOUND = (10 + 96 * ROUNDOFF) * ROUNDOFF
-MANTISSA_BITS = 53
-FLAT = 1e-12  # area, relative to the products whose difference it is
-ULPS = 16  # of the coordinates, times the longest edge: what rounding does to an area
+from .._typing import ArrayLike, BoolArray, FloatArray, NDArray
+
+MANTISSA_BITS = 53  # digits of a float64
+ROUNDOFF = 2.0**-MANTISSA_BITS  # largest relative error of one operation
+ORIENTATION_BOUND = (3 + 16 * ROUNDOFF) * ROUNDOFF  # error relative to the sum of the two products
+INCIRCLE_BOUND = (10 + 96 * ROUNDOFF) * ROUNDOFF  # error relative to the sum of the products' sizes
+FLAT = 1e-12  # area that counts as 0, relative to the products whose difference it is
+ULPS = 16  # roundings of a coordinate; times the longest edge, they are the error of an area
+
+Signs: TypeAlias = NDArray[np.int8]
+Formula: TypeAlias = Callable[..., tuple[Any, Any]]  # points to a determinant and the size of its products
 
 
-def orientation(a, b, c):
+def orientation(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Signs:
     """Exact sign of the turn a -> b -> c.
 
     Parameters
@@ -30,6 +37,10 @@ def orientation(a, b, c):
     -------
     (...) ndarray of int8
         +1 counter-clockwise, -1 clockwise, 0 collinear, without any rounding.
+
+    See Also
+    --------
+    incircle, nearly_flat
 
     References
     ----------
@@ -46,7 +57,7 @@ def orientation(a, b, c):
     return _sign(_turn, ORIENTATION_BOUND, a, b, c)
 
 
-def incircle(a, b, c, d):
+def incircle(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Signs:
     """Exact side of d with respect to the circle through a, b, c.
 
     Parameters
@@ -59,6 +70,10 @@ def incircle(a, b, c, d):
     (...) ndarray of int8
         +1 inside, -1 outside, 0 on the circle, without any rounding.
 
+    See Also
+    --------
+    orientation
+
     Examples
     --------
     >>> int(incircle([0, 0], [1, 0], [1, 1], [0, 1]))
@@ -69,8 +84,8 @@ def incircle(a, b, c, d):
     return _sign(_circle, INCIRCLE_BOUND, a, b, c, d)
 
 
-def nearly_flat(corners):
-    """Triangles that rounding of their coordinates may have laid flat or turned over.
+def nearly_flat(corners: FloatArray) -> BoolArray:
+    """Whether rounding of its coordinates may have laid a triangle flat or turned it over.
 
     Parameters
     ----------
@@ -100,8 +115,8 @@ def nearly_flat(corners):
     return found
 
 
-def _sign(formula, bound, *points):
-    points = np.broadcast_arrays(*(np.asarray(p, dtype=float) for p in points))
+def _sign(formula: Formula, bound: float, *arrays: ArrayLike) -> Signs:
+    points = np.broadcast_arrays(*(np.asarray(p, dtype=float) for p in arrays))
     with np.errstate(over="ignore", invalid="ignore", under="ignore"):
         value, size = formula(*points)
         decided = np.abs(value) > bound * size + np.finfo(float).tiny
@@ -114,20 +129,21 @@ def _sign(formula, bound, *points):
     return signs
 
 
-def _distinct(points):
+def _distinct(points: Iterable[FloatArray]) -> BoolArray:
     """Whether no two points coincide; where two do, both predicates are 0."""
     return ~np.any([(p == q).all(axis=-1) for p, q in combinations(points, 2)], axis=0)
 
 
-def _turn(a, b, c):
+def _turn(a: NDArray[Any], b: NDArray[Any], c: NDArray[Any]) -> tuple[Any, Any]:
     left = (a[..., 0] - c[..., 0]) * (b[..., 1] - c[..., 1])
     right = (a[..., 1] - c[..., 1]) * (b[..., 0] - c[..., 0])
     return left - right, abs(left) + abs(right)
 
 
-def _circle(a, b, c, d):
+def _circle(a: NDArray[Any], b: NDArray[Any], c: NDArray[Any], d: NDArray[Any]) -> tuple[Any, Any]:
     seen = [(p[..., 0] - d[..., 0], p[..., 1] - d[..., 1]) for p in (a, b, c)]
-    value = size = 0
+    value: Any = 0
+    size: Any = 0
     for k in range(3):
         (px, py), (qx, qy), (rx, ry) = seen[k:] + seen[:k]
         lift, left, right = px * px + py * py, qx * ry, qy * rx
@@ -136,8 +152,8 @@ def _circle(a, b, c, d):
     return value, size
 
 
-def _as_integers(points):
-    """The same points on one common integer lattice, as exact Python integers."""
+def _as_integers(points: list[FloatArray]) -> list[NDArray[Any]]:
+    """Points scaled by one common power of 2 to exact Python integers."""
     mantissas, exponents = np.frexp(np.stack(points))
     integers = np.ldexp(mantissas, MANTISSA_BITS).astype(np.int64).astype(object)
     smallest = exponents[mantissas != 0].min(initial=exponents.max())

@@ -4,12 +4,14 @@ from functools import cache
 
 import numpy as np
 
+from .._typing import FloatArray
+
 
 @cache
-def rule(degree):
+def rule(degree: int) -> tuple[FloatArray, FloatArray]:
     """Barycentric points and weights, exact for polynomials up to ``degree``.
 
-    The square is collapsed onto the triangle (Stroud's conical product), Gauss
+    The square is collapsed onto the triangle (Stroud's conical product), with Gauss
     points in one direction and Gauss-Jacobi points in the other.
 
     Parameters
@@ -23,6 +25,10 @@ def rule(degree):
         Barycentric coordinates.
     weights : (q,) ndarray of float64
         Positive, of sum 1: multiply by the area of the element.
+
+    See Also
+    --------
+    points_in : the points in given elements.
 
     Examples
     --------
@@ -42,19 +48,26 @@ def rule(degree):
     return np.column_stack([1 - second - third, second, third]), weights / weights.sum()
 
 
-def points_in(corners, degree):
-    """Quadrature points of elements with the given corners.
+def points_in(corners: FloatArray, degree: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Quadrature points in elements with the given corners.
 
     Parameters
     ----------
     corners : (T, 3, 2) ndarray of float
     degree : int
+        Polynomial degree up to which the rule is exact, at least 0.
 
     Returns
     -------
     x, y : (T, q) ndarray of float64
+        Coordinates of the q points in each element.
     barycentric : (q, 3) ndarray of float64
     weights : (q,) ndarray of float64
+        Of sum 1: multiply by the area of the element.
+
+    See Also
+    --------
+    rule
 
     Examples
     --------

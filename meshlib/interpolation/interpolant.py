@@ -10,10 +10,11 @@ from .._typing import ArrayLike, FloatArray, Function, Values
 from ..errors import InvalidInputError
 from ..geometry import quadrature
 from ..kernels import for_work
+from ..kernels.element_shapes import gradient
 from ..mesh.mesh import Mesh
 from ..support.drawing import drawn
-from . import locate_by_strips
-from .locate_by_buckets import located
+from .locate_by_buckets import by_buckets
+from .locate_by_strips import in_strips
 
 DEFAULT_DEGREE = 8
 ROUNDING = 8 * np.finfo(float).eps  # of a coordinate, in the places where a row cuts a side
@@ -80,9 +81,10 @@ class Interpolant:
 
     def _at(self, points):
         """Values at the rows of an array of points."""
-        if locate_by_strips.pay(self.mesh, points):
-            return locate_by_strips.Strips(self.mesh, points).values(self.values)
-        element = located(self.mesh, points)
+        strips = in_strips(self.mesh, points)
+        if strips is not None:
+            return strips.values(self.values)
+        element = by_buckets(self.mesh, points)
         first = self.mesh.elements[element, 0]
         away = points - self.mesh.nodes[first]
         values = self.values[first] + (self.gradients[element] * away).sum(axis=1)
@@ -110,21 +112,14 @@ class Interpolant:
     def _raster(self, low, high, nx, ny):
         """Values on the grid from low to high."""
         kernels = for_work(STEPS_OF_AN_ELEMENT * self.mesh.n_elements + nx * ny // POINTS_IN_A_STEP)
-        raster, readable = kernels.raster, kernels.backend.readable
-        step = (high - low) / (nx - 1, ny - 1)
-        unit = np.abs([low, high]).max()
-        slack = raster.SLACK + ROUNDING * (np.abs([low, high]).max(axis=0) / step).max()
-        grid = kernels.backend.writable(np.full(nx * ny, np.nan))
-        raster.filled(
-            grid,
-            nx,
-            ny,
-            *map(float, (*low, *1 / step, slack, unit)),
-            readable(self.mesh.elements),
-            readable(self.mesh.nodes),
-            readable(self.values),
-        )
-        return np.reshape(grid, (ny, nx))
+        step, largest = (high - low) / (nx - 1, ny - 1), np.abs([low, high]).max(axis=0)
+        slack = kernels.raster.SLACK + ROUNDING * (largest / step).max()
+        values = kernels.writable(np.full(nx * ny, np.nan))
+        start, cells = tuple(low.tolist()), tuple((1 / step).tolist())
+        grid = kernels.raster.Grid(values, nx, ny, start, cells, float(slack))
+        arrays = map(kernels.readable, (self.mesh.elements, self.mesh.nodes, self.values))
+        kernels.raster.filled(grid, *arrays, float(largest.max()))
+        return np.reshape(values, (ny, nx))
 
     def l2_error(
         self, function: Function, *, rule: str = "exact", points: int = 101, degree: int = DEFAULT_DEGREE
@@ -242,7 +237,7 @@ def gradients(corners, values):
     e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     du, dv = values[:, 1] - values[:, 0], values[:, 2] - values[:, 0]
     twice_area = e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]
-    return np.column_stack([du * f[:, 1] - dv * e[:, 1], dv * e[:, 0] - du * f[:, 0]]) / twice_area[:, None]
+    return np.column_stack(gradient(e.T, f.T, du, dv, twice_area))
 
 
 def squared_errors(corners, values, function, degree):

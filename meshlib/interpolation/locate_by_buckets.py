@@ -3,9 +3,9 @@
 import numpy as np
 
 from ..geometry.predicates import nearly_flat
-from . import locate_by_strips
+from ..kernels.element_shapes import INSIDE
+from .locate_by_strips import in_strips
 
-INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
 PAIRS_AT_ONCE = 2_000_000
 CELLS_OF_AN_ELEMENT = 64  # on average, beyond which the cells are made larger
 
@@ -31,13 +31,12 @@ def located(mesh, points):
     >>> located(mesh, np.array([[0.9, 0.1], [0.1, 0.9], [2.0, 0.0]])).tolist()
     [0, 1, -1]
     """
-    if locate_by_strips.pay(mesh, points):
-        return locate_by_strips.Strips(mesh, points).elements()
-    return by_buckets(mesh, points)
+    strips = in_strips(mesh, points)
+    return by_buckets(mesh, points) if strips is None else strips.elements()
 
 
 def by_buckets(mesh, points):
-    """The same in arrays, which plain Python runs faster than a loop."""
+    """`located` by operations on arrays, which plain Python runs faster than a loop."""
     buckets = _Buckets(mesh)
     found = np.empty(len(points), dtype=np.int32)
     step = max(1, int(PAIRS_AT_ONCE / buckets.mean_load))

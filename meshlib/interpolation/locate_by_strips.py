@@ -6,25 +6,26 @@ elements cost no memory; the order of the elements, and with it who decides, is 
 
 import numpy as np
 
-FEW = 20_000  # elements and points, which take less time than the import of the compiler
+from ..kernels import compiled_for_work
+
+FEW = 20_000  # elements and points below which buckets are as fast
+POINTS_IN_A_STEP = 2  # elements and points that buckets manage in about a microsecond
 CELLS = np.uint16(128)  # in a row
 PER_STRIP = 2.0  # how many times as many points in a strip as there are strips
 
 
-def pay(mesh, points):
-    """Whether the search pays: it needs numba, whose import takes longer than a few points."""
-    if len(points) + mesh.n_elements < FEW:
-        return False
-    from ..kernels import backend
-
-    return backend.NAME == "numba"
+def in_strips(mesh, points):
+    """The points in strips, if there are enough of them and compiled kernels are worth loading; or None."""
+    size = len(points) + mesh.n_elements
+    kernels = compiled_for_work(size / POINTS_IN_A_STEP) if size >= FEW else None
+    return Strips(mesh, points, kernels) if kernels else None
 
 
 class Strips:
     """Points of the bounding box in strips, as many in each, from bottom to top in each strip."""
 
-    def __init__(self, mesh, points):
-        self.mesh, self.points = mesh, points
+    def __init__(self, mesh, points, kernels):
+        self.mesh, self.points, self._kernels = mesh, points, kernels
         low, high = mesh.box
         known = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))  # NaN is not
         self.unit = float(np.abs([low, high]).max())
@@ -49,21 +50,23 @@ class Strips:
         return self._in_order_of_points(self._search(), -1)
 
     def _search(self):
-        """The same in the order of the strips."""
-        from ..kernels import location
-        from ..kernels.backend import readable, writable
-
+        """The element of each point, in the order of the strips."""
+        kernels, writable = self._kernels, self._kernels.writable
         best = writable(np.full(len(self.order), -np.inf))
         found = writable(np.full(len(self.order), -1, dtype=np.int32))
-        location.searched(
-            *map(readable, (self.x, self.y)),
-            self.size,
-            *map(readable, (self.edge, self._neighbouring(), self.mesh.elements, self.mesh.nodes)),
-            self.unit,
-            best,
-            found,
-        )
+        search = kernels.location.Search(best, found)
+        kernels.location.searched(self._strips(), self._elements(), search)
         return found
+
+    def _strips(self):
+        x, y, edge = map(self._kernels.readable, (self.x, self.y, self.edge))
+        return self._kernels.location.Strips(x, y, self.size, edge)
+
+    def _elements(self):
+        order, nodes, place = map(
+            self._kernels.readable, (self._neighbouring(), self.mesh.elements, self.mesh.nodes)
+        )
+        return self._kernels.location.Elements(order, nodes, place, self.unit)
 
     def _neighbouring(self):
         """Numbers of the elements, those in a cell of a grid together: they share nodes and points."""
@@ -77,17 +80,9 @@ class Strips:
 
     def values(self, values):
         """Values at the points of the interpolant of nodal values, NaN outside the domain."""
-        from ..kernels import location
-        from ..kernels.backend import readable, writable
-
-        value = writable(np.full(len(self.order), np.nan))
-        location.interpolated(
-            *map(readable, (self.x, self.y)),
-            self._search(),
-            readable(self.mesh.elements),
-            readable(self.mesh.nodes),
-            readable(values),
-            value,
+        value = self._kernels.writable(np.full(len(self.order), np.nan))
+        self._kernels.location.interpolated(
+            self._strips(), self._elements(), self._search(), self._kernels.readable(values), value
         )
         return self._in_order_of_points(value, np.nan)
 

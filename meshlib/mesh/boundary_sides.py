@@ -4,49 +4,54 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-INTERIOR, CORNER = -1, -2
-STRAIGHT = 1e-12  # sine of the angle below which the boundary goes straight on
+from .._typing import AnyMesh, BoolArray, FloatArray, IntArray
+
+INTERIOR, CORNER = -1, -2  # in place of the side of a node that lies on none, or on two
 
 
 @dataclass(frozen=True)
 class Sides:
-    """Sides of a domain.
+    """Straight sides of a domain.
 
     Attributes
     ----------
     of_node : (N,) ndarray of int
-        The side of each node of the mesh given, INTERIOR or CORNER.
+        Number of the side on which each node lies, or INTERIOR or CORNER.
     ends : (S, 2, 2) ndarray of float
-        First and last point of each side.
+        First and last point of each side, with the domain on the left.
     corners : (S, 2) ndarray of int
-        Their node numbers.
+        Node numbers of the first and the last point.
     """
 
-    of_node: np.ndarray
-    ends: np.ndarray
-    corners: np.ndarray
+    of_node: IntArray
+    ends: FloatArray
+    corners: IntArray
 
-    def of_edges(self, pairs, side):
-        """The side of boundary edges given by node numbers, (m, 2); a corner is on two sides."""
+    def of_edges(self, pairs: IntArray, side: IntArray) -> IntArray:
+        """Number of the side on which each boundary edge lies.
+
+        ``pairs``, (m, 2), are the nodes of the edges, ``side`` the side of each node; an edge
+        between two corners is a whole side.
+        """
         found = side[pairs].max(axis=1)
         between = np.flatnonzero(found == CORNER)
         known = {frozenset(ends): number for number, ends in enumerate(self.corners.tolist())}
         found[between] = [known[frozenset(pair)] for pair in pairs[between].tolist()]
         return found
 
-    def renumbered(self, number):
-        """The same sides when node n has become node number[n]."""
+    def renumbered(self, number: IntArray) -> "Sides":
+        """Sides of a mesh in which node n has become node number[n]."""
         return replace(self, corners=number[self.corners])
 
-    def snapped(self, points, side):
-        """Points moved onto their sides, where rounding has left them beside."""
+    def snapped(self, points: FloatArray, side: IntArray) -> FloatArray:
+        """Points, (m, 2), that rounding has moved off their sides, moved back to the nearest point there."""
         start, along = self.ends[side, 0], self.ends[side, 1] - self.ends[side, 0]
         share = ((points - start) * along).sum(axis=1) / (along**2).sum(axis=1)
-        return start + share[:, None] * along
+        return np.asarray(start + share[:, None] * along)
 
 
-def sides_of(mesh):
-    """The sides of the domain of a mesh.
+def sides_of(mesh: AnyMesh) -> Sides:
+    """The straight sides of the domain of a mesh.
 
     Examples
     --------
@@ -58,29 +63,29 @@ def sides_of(mesh):
     after = _next_on_boundary(mesh)
     corner = _turns(mesh, after)
     of_node = np.where(mesh.boundary_nodes, CORNER, INTERIOR)
-    corners = []
+    found: list[tuple[int, int]] = []
     for start in np.flatnonzero(corner):
         for node in after[start]:
             while not corner[node]:
-                of_node[node] = len(corners)
+                of_node[node] = len(found)
                 node = after[node][0]
-            corners.append((start, node))
-    corners = np.array(corners).reshape(-1, 2)
+            found.append((start, node))
+    corners = np.array(found).reshape(-1, 2)
     return Sides(of_node, mesh.nodes[corners], corners)
 
 
-def _next_on_boundary(mesh):
-    """For each node the nodes that follow it with the domain on the left."""
-    after = [[] for _ in range(mesh.n_nodes)]
+def _next_on_boundary(mesh: AnyMesh) -> list[list[int]]:
+    """For each node the nodes that follow it on the boundary, with the domain on the left."""
+    after: list[list[int]] = [[] for _ in range(mesh.n_nodes)]
     t, k = np.nonzero(mesh.neighbours < 0)
     for tail, head in zip(mesh.elements[t, (k + 1) % 3], mesh.elements[t, (k + 2) % 3], strict=True):
         after[tail].append(int(head))
     return after
 
 
-def _turns(mesh, after):
-    """Whether the boundary turns at a node, or passes it more than once."""
-    before = [[] for _ in after]
+def _turns(mesh: AnyMesh, after: list[list[int]]) -> BoolArray:
+    """Whether the boundary turns at each node, or passes it more than once."""
+    before: list[list[int]] = [[] for _ in after]
     for node, heads in enumerate(after):
         for head in heads:
             before[head].append(node)
@@ -92,5 +97,7 @@ def _turns(mesh, after):
     return corner
 
 
-def _is_straight(u, v):
-    return abs(u[0] * v[1] - u[1] * v[0]) <= STRAIGHT * np.hypot(*u) * np.hypot(*v) and u @ v > 0
+def _is_straight(u: FloatArray, v: FloatArray, least_sine: float = 1e-12) -> bool:
+    """Whether v goes on in the direction of u: the sine of the angle between them is below ``least_sine``."""
+    cross = abs(u[0] * v[1] - u[1] * v[0])
+    return bool(cross <= least_sine * np.hypot(*u) * np.hypot(*v) and u @ v > 0)

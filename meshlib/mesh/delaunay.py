@@ -3,43 +3,52 @@
 import numpy as np
 
 from .. import checks
+from .._typing import ArrayLike, BoolArray, FloatArray, IntArray
 from ..errors import InvalidInputError, InvalidMeshError
 from ..geometry.predicates import incircle, nearly_flat, orientation
 from ..support.independent import independent
 from .mesh import Mesh
 from .topology import canonical, quadrilaterals
 
-EDGES_AT_ONCE = 16_384
-NEW = (0, 3, 2), (3, 0, 1)  # (a, d, c) and (d, a, b) of a quadrilateral (a, b, c, d)
+NEW = (
+    (0, 3, 2),
+    (3, 0, 1),
+)  # corners of the new elements (a, d, c) and (d, a, b) in a quadrilateral (a, b, c, d)
 
 
-def delaunay(nodes):
+def delaunay(nodes: ArrayLike) -> Mesh:
     """The Delaunay mesh of a set of nodes.
 
-    Among cocircular nodes, where several meshes are Delaunay, the diagonals from
-    the node with the smallest number are taken, so that the result depends on
-    nothing but the nodes.
+    Where four or more nodes lie on one circle, several meshes are Delaunay.  Of these
+    the one with the diagonals from the node with the smallest number is taken, so that
+    the result depends on nothing but the nodes.
 
     Parameters
     ----------
     nodes : (N, 2) array_like of float
-        Distinct, not all collinear.
+        Coordinates of at least three distinct nodes, not all collinear.
 
     Returns
     -------
     Mesh
-        A conforming mesh of the convex hull of the nodes, without the slivers between
-        hull and nodes that lie on it but for rounding.
+        A conforming mesh of the convex hull of the nodes.  Nodes that rounding has moved
+        off a side of the hull, into the domain, are boundary nodes: the slivers between
+        them and the side are left out.
 
     Raises
     ------
     MeshError
-        Names coinciding nodes, collinear nodes, and coordinates that are not finite.
+        If nodes coincide, are all collinear, are too close to others to be meshed, or have
+        coordinates that are not finite.
+
+    See Also
+    --------
+    Mesh, swapped
 
     Notes
     -----
-    Qhull finds the mesh in floating point [barber1996]_; exact in-circle tests then
-    swap what it decided by rounding.  The result is optimal for the max-min angle
+    Qhull finds a mesh in floating point [barber1996]_; then each diagonal that fails the
+    exact in-circle test is swapped.  The result is optimal for the max-min angle
     criterion [sibson1978]_.
 
     References
@@ -68,7 +77,8 @@ def delaunay(nodes):
     return Mesh._trusted(nodes, canonical(elements))
 
 
-def _refuse_collinear(nodes):
+def _refuse_collinear(nodes: FloatArray) -> None:
+    """Raise a MeshError if all nodes lie on one line."""
     far = np.abs(nodes - nodes[0]).max(axis=1).argmax()
     if not orientation(nodes[0], nodes[far], nodes).any():
         raise InvalidInputError(
@@ -76,21 +86,22 @@ def _refuse_collinear(nodes):
         )
 
 
-def _qhull(nodes):
+def _qhull(nodes: FloatArray) -> IntArray:
+    """Elements of the Delaunay mesh as Qhull finds them."""
     from scipy.spatial import Delaunay, QhullError
 
-    centred = nodes - nodes.mean(axis=0)  # coordinates far from 0 cost digits
+    centred = nodes - nodes.mean(axis=0)  # coordinates far from 0 would lose digits
     try:
-        return Delaunay(centred / np.abs(centred).max()).simplices
+        return np.asarray(Delaunay(centred / np.abs(centred).max()).simplices)
     except QhullError as error:
         raise _nearly_collinear() from error
 
 
-def _without_flat(nodes, elements):
-    """Elements that rounding laid flat or turned over, swapped away.
+def _without_flat(nodes: FloatArray, elements: IntArray) -> IntArray:
+    """Elements without those that rounding laid flat or turned over.
 
-    Those with their longest side on the boundary are left out: there the hull is
-    straight but for rounding.
+    A flat element goes by a swap of its longest edge.  If this edge is on the boundary, the
+    element is left out: only by rounding is the hull not straight there.
     """
     flat = nearly_flat(nodes[elements])
     while flat.any():
@@ -104,13 +115,14 @@ def _without_flat(nodes, elements):
     return elements
 
 
-def _longest_edges(mesh, some):
+def _longest_edges(mesh: Mesh, some: BoolArray) -> IntArray:
+    """Number of the longest edge of each of some elements."""
     sides = np.roll(mesh.corners[some], -1, axis=1) - np.roll(mesh.corners[some], 1, axis=1)
     return mesh.element_edges[some, (sides**2).sum(axis=2).argmax(axis=1)]
 
 
-def _unfolded(mesh, edges):
-    """Elements after a swap of those edges whose new elements are not flat."""
+def _unfolded(mesh: Mesh, edges: IntArray) -> IntArray:
+    """Elements after a swap of the edges whose new elements are not flat."""
     quads, pairs = quadrilaterals(mesh, edges)
     good = ~np.any([nearly_flat(mesh.nodes[quads[:, new]]) for new in NEW], axis=0)
     if not good.any():
@@ -118,13 +130,13 @@ def _unfolded(mesh, edges):
     return _swapped(mesh, *_independent(quads[good], pairs[good], mesh.n_elements)).elements
 
 
-def _nearly_collinear():
+def _nearly_collinear() -> InvalidInputError:
     return InvalidInputError(
         "collinear", "the nodes are too nearly on one line to be meshed; scale the flat direction up first"
     )
 
 
-def _flipped_to_delaunay(nodes, elements):
+def _flipped_to_delaunay(nodes: FloatArray, elements: IntArray) -> IntArray:
     r"""Swap every diagonal that is not Delaunay, many at once, until none is left.
 
     ::
@@ -151,7 +163,7 @@ def _flipped_to_delaunay(nodes, elements):
     return mesh.elements
 
 
-def _swapped(mesh, quads, pairs):
+def _swapped(mesh: Mesh, quads: IntArray, pairs: IntArray) -> Mesh:
     """The mesh with the diagonals b-c of the quadrilaterals swapped for a-d."""
     elements = mesh.elements.copy()
     for side, new in zip(pairs.T, NEW, strict=True):
@@ -159,21 +171,21 @@ def _swapped(mesh, quads, pairs):
     return Mesh(mesh.nodes, elements)
 
 
-def _worse(mesh, edges):
-    """Those of the edges that are to be swapped, looked at in parts that stay in the processor's memory."""
-    parts = (edges[k : k + EDGES_AT_ONCE] for k in range(0, len(edges), EDGES_AT_ONCE))
+def _worse(mesh: Mesh, edges: IntArray, at_once: int = 16_384) -> IntArray:
+    """Edges to be swapped; ``at_once`` are tested together, since their nodes fit a processor's memory."""
+    parts = (edges[k : k + at_once] for k in range(0, len(edges), at_once))
     return np.concatenate([part[_is_worse(mesh.nodes, *quadrilaterals(mesh, part)[0].T)] for part in parts])
 
 
-def _is_worse(nodes, a, b, c, d):
-    """Whether b-c is not Delaunay, or tied while a-d has the smallest node number."""
+def _is_worse(nodes: FloatArray, a: IntArray, b: IntArray, c: IntArray, d: IntArray) -> BoolArray:
+    """Whether b-c is not Delaunay, or both diagonals are and a-d has the smallest node number."""
     side = incircle(*(nodes.take(n, axis=0) for n in (a, b, c, d)))
     tied = (side == 0) & (np.minimum(a, d) < np.minimum(b, c))
-    return (side > 0) | tied
+    return np.asarray((side > 0) | tied)
 
 
-def _independent(quads, pairs, n_elements):
-    """Quadrilaterals that share no element: each is the first at both its elements."""
+def _independent(quads: IntArray, pairs: IntArray, n_elements: int) -> tuple[IntArray, IntArray]:
+    """Quadrilaterals, and their pairs of elements, of which no two share an element; the first comes first."""
     alike = np.zeros(len(pairs))
     free = independent(alike, np.repeat(np.arange(len(pairs)), 2), pairs.ravel(), n_elements)
     return quads[free], pairs[free]

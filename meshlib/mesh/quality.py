@@ -7,11 +7,11 @@ import numpy as np
 from .._typing import FloatArray, IntArray
 from ..checks import a_mesh
 from .mesh import Mesh
+from .topology import HEADS, TAILS
 
-EQUILATERAL = np.pi / 3
-NEXT, PREVIOUS = [1, 2, 0], [2, 0, 1]
+EQUILATERAL = np.pi / 3  # angle of an equilateral triangle, in radians
 AT_ONCE = 4096  # number of elements whose coordinates fit a processor's nearest memory
-MEASURES = {
+MEASURES = {  # titles of the measures in tables
     "minimum_angle": "Minimum angle",
     "maximum_angle": "Maximum angle",
     "skewness": "Skewness",
@@ -19,7 +19,7 @@ MEASURES = {
     "shortest_edge": "Shortest edge",
     "longest_edge": "Longest edge",
 }
-LARGE_IS_GOOD = ("minimum_angle", "aspect_ratio", "shortest_edge")
+LARGE_IS_GOOD = ("minimum_angle", "aspect_ratio", "shortest_edge")  # measures whose worst value is the least
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -125,8 +125,8 @@ def quality(mesh: Mesh) -> Quality:
     return Quality(*found)
 
 
-def _measures(x, y):
-    """The measures of elements with the coordinates x, y, (3, T) each, in the order of `Quality`."""
+def _measures(x: FloatArray, y: FloatArray) -> tuple[FloatArray, ...]:
+    """Measures of elements with node coordinates x and y, (3, T) each, in the order of `Quality`."""
     angle, cross, squared_edges = _angles(x, y)
     return (
         np.degrees(angle.min(axis=0)),
@@ -138,9 +138,9 @@ def _measures(x, y):
     )
 
 
-def _angles(x, y):
-    """Angles, cross products of the sides that meet there, and squares of one of them, (3, T) each."""
-    ux, uy, vx, vy = x[NEXT] - x, y[NEXT] - y, x[PREVIOUS] - x, y[PREVIOUS] - y
+def _angles(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Per node the angle, the cross product of both sides there, and the first side squared, (3, T) each."""
+    ux, uy, vx, vy = x[TAILS] - x, y[TAILS] - y, x[HEADS] - x, y[HEADS] - y
     cross = ux * vy - uy * vx
     return np.arctan2(np.abs(cross), ux * vx + uy * vy), cross, ux**2 + uy**2
 
@@ -155,13 +155,17 @@ def uniformity(mesh: Mesh) -> FloatArray:
     Returns
     -------
     (T,) ndarray of float64
-        The largest ratio, larger to smaller area, of an element and another that shares an
-        edge with it (section 7.2); 1 if all are alike, or if there is no other.
+        The largest ratio of areas, the larger to the smaller, of the element and a neighbour
+        (section 7.2); 1 if all have the same area, or if there is no neighbour.
 
     Raises
     ------
     MeshError
         If the mesh is not valid.
+
+    See Also
+    --------
+    quality, valence
 
     Examples
     --------
@@ -176,7 +180,7 @@ def uniformity(mesh: Mesh) -> FloatArray:
 
 
 def valence(mesh: Mesh) -> IntArray:
-    """Number of elements that have each node in common (section 7.2).
+    """Number of elements around each node (section 7.2).
 
     Parameters
     ----------
@@ -191,6 +195,10 @@ def valence(mesh: Mesh) -> IntArray:
     ------
     MeshError
         If the mesh is not valid.
+
+    See Also
+    --------
+    quality, uniformity
 
     Examples
     --------

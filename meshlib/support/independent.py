@@ -2,11 +2,11 @@
 
 import numpy as np
 
-BITS = 26  # of a number that is compared
+from .._typing import FloatArray, IntArray
 
 
-def coarse(numbers):
-    """Numbers rounded to about eight digits, so that those which differ by rounding are equal.
+def coarse(numbers: FloatArray, bits: int = 26) -> FloatArray:
+    """Numbers rounded to 26 bits, about eight digits, so that those which differ by rounding are equal.
 
     Examples
     --------
@@ -17,23 +17,24 @@ def coarse(numbers):
     (True, inf)
     """
     mantissa, exponent = np.frexp(numbers)
-    return np.ldexp(np.round(np.ldexp(mantissa, BITS)), exponent - BITS)
+    return np.ldexp(np.round(np.ldexp(mantissa, bits)), exponent - bits)
 
 
-def independent(gain, rows, items, n_items):
+def independent(gain: FloatArray, rows: IntArray, items: IntArray, n_items: int) -> IntArray:
     """Candidates of which none shares an item with a better one, best first.
 
     Parameters
     ----------
     gain : (m,) ndarray of float
-        Of each candidate; of equal ones the first is the better.
+        Gain of each candidate; of equal ones the first is the better.
     rows, items : (k,) ndarray of int
-        Which candidate touches which item; items below 0 do not count.
+        Pairs of a candidate and an item that it touches; items below 0 do not count.
     n_items : int
 
     Returns
     -------
     (p,) ndarray of int64
+        Numbers of candidates.
 
     Examples
     --------

@@ -6,8 +6,7 @@ from functools import cache
 import numpy as np
 
 from .._typing import FloatArray, IntArray, NDArray
-
-MANTISSA_BITS = 53  # of 64 random bits, those that a float64 in [0, 1) keeps
+from ..geometry.predicates import MANTISSA_BITS, ROUNDOFF
 
 
 class Draws:
@@ -35,8 +34,8 @@ class Draws:
         self._bits = np.random.PCG64(seed)
 
     def uniform(self, shape: int | tuple[int, ...]) -> FloatArray:
-        """Float64 numbers of at least 0 and below 1, an array of this shape."""
-        return (self._raw(shape) >> np.uint64(64 - MANTISSA_BITS)) * 2.0**-MANTISSA_BITS
+        """Float64 numbers of at least 0 and below 1, multiples of 2^-53, an array of this shape."""
+        return (self._raw(shape) >> np.uint64(64 - MANTISSA_BITS)) * np.float64(ROUNDOFF)
 
     def exponential(self, shape: int | tuple[int, ...]) -> FloatArray:
         """Float64 numbers above x with probability exp(-x), an array of this shape."""

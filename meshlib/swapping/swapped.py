@@ -182,7 +182,7 @@ def swapped(
     checks.choice(schedule, ("sweep", "queue"), "schedule")
     procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
     runner, edges = _runner(procedure, order, schedule)
-    if procedure.criterion.is_own:
+    if procedure.criterion.is_user_defined:
         procedure.cost(procedure.mesh)  # refuses what is no cost, also where nothing will be swapped
     with Watch(progress, procedure.mesh.n_edges if progress else 0, "edge") as watch:
         done = runner.run(edges, False, schedule, watch)
