@@ -205,6 +205,14 @@ def test_bad_data_springs(arguments, expected):
     assert str(error.value) == expected
 
 
+def test_springs_are_asked_on_meshes_that_take_over_the_edges():
+    """Moving changes no edge, so that none is derived again."""
+    mesh, asked = problems.mesh("33"), []
+    smoothed(mesh, lambda moved: asked.append(moved) or DataSprings(problems.SR3)(moved), max_sweeps=3)
+    assert len(asked) == 4 and all(moved.edges is mesh.edges for moved in asked)
+    assert all(np.array_equal(moved.edges, Mesh(moved.nodes, moved.elements).edges) for moved in asked)
+
+
 def test_springs_of_the_wrong_shape_are_named_on_the_way():
     with pytest.raises(MeshError) as error:
         smoothed(problems.mesh("33"), lambda mesh: np.ones(3))

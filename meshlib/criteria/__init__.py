@@ -22,9 +22,10 @@ elements takes three such arrays, one for each corner; a cost on nodes takes the
 where the mesh is worse.
 """
 
+from .cost_functions import plane_gradients
 from .criterion import Criterion
 from .from_functions import min_error, pointwise
-from .registry import costs, get, names, plane_gradients, prefers, register, unregister
+from .registry import costs, get, names, prefers, register, unregister
 
 __all__ = [
     "Criterion",

@@ -132,7 +132,7 @@ def pointwise(
     >>> from math import sqrt
     >>> from meshlib import problems, swapped
     >>> def length(px, py, pu, qx, qy, qu, lx, ly, lu, rx, ry, ru):
-    ...     return sqrt((px - qx) ** 2 + (py - qy) ** 2 + (pu - qu) ** 2)  # of the edge in space
+    ...     return sqrt((px - qx) ** 2 + (py - qy) ** 2 + (pu - qu) ** 2)
     >>> short = pointwise("length", "edge", length)
     >>> swapped(problems.mesh("33"), problems.SR2, short, norm="L1").swaps
     11

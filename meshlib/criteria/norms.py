@@ -8,7 +8,7 @@ import numpy as np
 from .. import checks
 from .._typing import ArrayLike, Norm
 
-Measure: TypeAlias = float | tuple[float, ...]  # of a cost vector, as the orders compare it
+Measure: TypeAlias = float | tuple[float, ...]  # what an order compares, see `measure`
 
 NORMS = (1, 2, "max", "lexicographic")
 SPELLINGS: dict[Hashable, Norm] = {"L1": 1, "L2": 2, np.inf: "max"}  # other names of the first three

@@ -14,25 +14,10 @@ from .cost_functions import (
     gradient_spread,
     jump_in_normal_derivatives,
     largest_angle,
-    plane_gradients,
     smallest_angle,
 )
 from .criterion import Criterion
-from .from_functions import min_error, pointwise
 from .norms import precedes
-
-__all__ = [
-    "Criterion",
-    "costs",
-    "get",
-    "min_error",
-    "names",
-    "plane_gradients",
-    "pointwise",
-    "prefers",
-    "register",
-    "unregister",
-]
 
 
 def costs(mesh: Mesh, values: Values, criterion: str | Criterion = "jnd") -> FloatArray:

@@ -5,32 +5,35 @@ from dataclasses import KW_ONLY, dataclass
 import numpy as np
 
 from .. import checks
-from .._typing import Function
+from .._typing import FloatArray, Function
 from ..errors import InvalidInputError
+from ..mesh.mesh import Mesh
 
-FIRST, SECOND = 0.0, 100.0
-POWER = 0.4
-NOISE = 1e-14  # relative size of differences that are rounding
-PARTS = 6  # of an edge, so that a steep ramp across its middle is seen
+NOISE = 1e-14  # rounding error of a difference of values, relative to the largest value
+PARTS = 6  # parts of an edge between samples of u, enough to see a steep ramp across its middle
 
 
 @dataclass(frozen=True)
 class DataSprings:
-    """Spring constants from the first and second derivative of u along each edge.
+    """Spring constants made from the first and second derivative of u along each edge.
 
     Parameters
     ----------
     function : callable
         Vectorised u(x, y), finite in the whole domain.
     first, second : float
-        Weights a and b of the two derivatives, at least 0; without dimension.
+        Weights a and b of the two derivatives, at least 0; without unit.
     power : float
         The exponent p, at least 0.
 
     Raises
     ------
     MeshError
-        If the function is none, or a number is negative or not finite.
+        If the function cannot be called, or a number is negative or not finite.
+
+    See Also
+    --------
+    smoothed : Moves nodes until such springs are in equilibrium.
 
     Notes
     -----
@@ -39,10 +42,12 @@ class DataSprings:
 
         k = (1 + a |u_s| / mean |u_s| + b |u_ss| / mean |u_ss|)^p
 
-    ``|u_s|`` is the difference quotient of the ends, and ``|u_ss|`` the mean of second
-    differences along the edge.  *The default exponent.*  At rest in one dimension k h
-    is the same for all edges of length h, and of all meshes with so many nodes that with
-    h in proportion to ``|u_ss|^(-2/5)`` has the least L2 error.
+    ``|u_s|`` is the difference quotient of the ends, and ``|u_ss|`` the mean of the
+    absolute second differences along the edge.
+
+    *The default exponent.*  In one dimension k h is equal for all edges, of length h,
+    when the springs are at rest.  Among all meshes with the same number of nodes, the
+    one with h in proportion to ``|u_ss|^(-2/5)`` has the least L2 error.
 
     Examples
     --------
@@ -57,11 +62,11 @@ class DataSprings:
 
     function: Function
     _: KW_ONLY
-    first: float = FIRST
-    second: float = SECOND
-    power: float = POWER
+    first: float = 0.0
+    second: float = 100.0
+    power: float = 0.4
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not callable(self.function):
             raise InvalidInputError(
                 "type",
@@ -70,15 +75,15 @@ class DataSprings:
         for name in ("first", "second", "power"):
             checks.number(getattr(self, name), name, 0, np.inf, "a finite number of at least 0")
 
-    def __call__(self, mesh):
-        """(E,) float64: the constant of each edge of a mesh."""
+    def __call__(self, mesh: Mesh) -> FloatArray:
+        """(E,) ndarray of float64: the constant of each edge of a mesh, without unit."""
         first, second, length = self.derivatives(mesh)
         weight = length / length.sum()
         steep, curved = _relative(first, weight), _relative(second, weight)
         return (1 + self.first * steep + self.second * curved) ** self.power
 
-    def derivatives(self, mesh):
-        """``|u_s|``, ``|u_ss|`` and the length of each edge, (E,) float64 each."""
+    def derivatives(self, mesh: Mesh) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """``|u_s|``, ``|u_ss|`` and the length of each edge, (E,) ndarrays of float64."""
         start, end = mesh.nodes[mesh.edges].transpose(1, 2, 0)
         share = np.linspace(0, 1, PARTS + 1)[:, None]
         x, y = start[:, None] + share * (end - start)[:, None]
@@ -89,12 +94,12 @@ class DataSprings:
         return rise / length, bend * (PARTS / length) ** 2, length
 
 
-def _above(sizes, noise):
-    """Sizes, and 0 for those that are rounding: linear data have no curvature."""
+def _above(sizes: FloatArray, noise: float) -> FloatArray:
+    """Sizes, with 0 for those below the noise, so that linear data have no curvature."""
     return np.where(sizes > noise, sizes, 0)
 
 
-def _relative(sizes, weight):
-    """Sizes in units of their mean, all 0 if that is."""
+def _relative(sizes: FloatArray, weight: FloatArray) -> FloatArray:
+    """Sizes divided by their weighted mean, or all 0 if this is 0."""
     mean = weight @ sizes
     return sizes / mean if mean > 0 else sizes

@@ -3,14 +3,14 @@
 import numpy as np
 
 from .. import checks, criteria
-from .._typing import ArrayLike, IntArray, Values
+from .._typing import ArrayLike, FloatArray, IntArray, Values
 from ..criteria.criterion import Criterion
 from ..mesh.mesh import Mesh
 
 MARKS = ("element", "edge", "node", "density")
 TIES = ("first", "all")
-TIED = 1e-9  # costs this close, relative to the largest, count as equal
-WHOLE = 1e-9  # 0.1 * 30 is 3, whatever binary fractions say
+TIED = 1e-9  # difference of costs that count as equal, as a fraction of the largest
+WHOLE = 1e-9  # rounding error of a number of elements: 0.1 * 30 is 3, and not a little more
 
 
 def marked(
@@ -29,31 +29,38 @@ def marked(
     ----------
     mesh : Mesh
     values : (N,) array_like of float, or callable
+        Values of u at the nodes, or a vectorised function u(x, y).
     criterion : str or Criterion
-        A cost on other parts of the mesh than ``mark`` needs is averaged over them.
+        Costs of other parts of the mesh than those that ``mark`` compares are averaged,
+        see `averaged`.
     fraction : float
-        Share of the elements to mark, from 0 to 1.
+        Fraction of the elements to mark, from 0 to 1; rounded up to whole elements.
     mark : {"element", "edge", "node", "density"}
-        ``"element"``: the worst by mean cost (section 3.2.1); ``"edge"`` and
-        ``"node"``: all elements at the worst edges or nodes, one edge or node after
-        the other until the share is reached; ``"density"``: the worst by sum of
-        costs per area (section 6.2).
+        ``"element"``: the elements with the largest mean cost (section 3.2.1);
+        ``"edge"`` and ``"node"``: all elements at the edges or nodes with the largest
+        costs, one edge or node after the other until the fraction is reached;
+        ``"density"``: the elements with the largest sum of costs per area (section 6.2).
     ties : {"first", "all"}
-        Whether elements that tie with the last one are left out or marked too; for
-        ``"element"`` and ``"density"``.
+        Whether elements that tie with the last one marked are left out or marked too;
+        for ``mark="element"`` and ``mark="density"``.
     order : array_like of int, optional
-        Numbers of the elements, edges or nodes in the order that breaks ties.
+        Numbers of the elements, edges or nodes: of those that tie, the first in this
+        order are marked.  By default they are taken by their numbers.
 
     Returns
     -------
     (m,) ndarray of int64
-        In ascending order.
+        Numbers of the marked elements, in ascending order.
 
     Raises
     ------
     MeshError
-        If a name is not known, the fraction is out of range, or the order is no
-        permutation.
+        If the mesh is not valid, a value is not finite, a name is not known, the fraction
+        is out of range, or the order is not a permutation.
+
+    See Also
+    --------
+    meshlib.refined : Marks elements and splits them.
 
     Examples
     --------
@@ -63,35 +70,38 @@ def marked(
     13
     """
     mesh = checks.a_mesh(mesh)
-    values = checks.nodal_values(mesh, values)
+    at_nodes = checks.nodal_values(mesh, values)
     criterion, share = criteria.get(criterion), checks.fraction(fraction)
     checks.choice(mark, MARKS, "mark")
     checks.choice(ties, TIES, "ties")
     target = int(np.ceil(share * mesh.n_elements - WHOLE))
     if not target:
         return np.empty(0, dtype=np.int64)
-    costs = criterion.costs(mesh, values)
+    costs = criterion.costs(mesh, at_nodes)
+    place = "element" if mark == "density" else mark
+    costs = averaged(mesh, costs, criterion.on, place)
+    ranked = np.arange(len(costs)) if order is None else checks.permutation(order, len(costs), place)
     if mark in ("edge", "node"):
-        return _around(mesh, averaged(mesh, costs, criterion.on, mark), mark, target, order)
-    costs = averaged(mesh, costs, criterion.on, "element")
+        return _around(mesh, costs, mark, target, ranked)
     if mark == "density":
         costs = costs / mesh.areas * _parts(criterion.on)
-    return _worst(costs, target, ties, order)
+    return _worst(costs, target, ties, ranked)
 
 
-def averaged(mesh, costs, source, target):
+def averaged(mesh: Mesh, costs: FloatArray, source: str, target: str) -> FloatArray:
     """Costs of one part of a mesh as means over the adjoining parts of another.
 
     Parameters
     ----------
     mesh : Mesh
-    costs : ndarray of float
+    costs : (E,), (T,) or (N,) ndarray of float
         One for each ``source``.
     source, target : {"edge", "element", "node"}
+        Parts of the mesh that have the costs, and that get the means.
 
     Returns
     -------
-    ndarray of float64
+    (E,), (T,) or (N,) ndarray of float64
         One for each ``target``.
 
     Examples
@@ -111,41 +121,39 @@ def averaged(mesh, costs, source, target):
     return np.bincount(there, costs[here], size) / np.bincount(there, minlength=size)
 
 
-def _corners(mesh, place):
+def _corners(mesh: Mesh, place: str) -> IntArray:
     """The three edges or nodes of each element."""
     return mesh.element_edges if place == "edge" else mesh.elements
 
 
-def _incidence(mesh, source, target):
-    """Numbers of adjoining parts, pair by pair."""
+def _incidence(mesh: Mesh, source: str, target: str) -> tuple[IntArray, IntArray]:
+    """Numbers of a source and of a target that adjoin, for all such pairs."""
     if source == "element":
         return np.repeat(np.arange(mesh.n_elements), 3), _corners(mesh, target).ravel()
     edges, nodes = np.repeat(np.arange(mesh.n_edges), 2), mesh.edges.ravel()
     return (edges, nodes) if source == "edge" else (nodes, edges)
 
 
-def _parts(place):
-    """How many costs an element's cost is the mean of."""
+def _parts(place: str) -> int:
+    """Number of costs of which the cost of an element is the mean."""
     return 1 if place == "element" else 3
 
 
-def _worst(costs, target, ties, order):
-    """Elements above the group that ties for the last place, and as many of that as the target takes."""
-    order = order if order is None else checks.permutation(order, len(costs), "element")
+def _worst(costs: FloatArray, target: int, ties: str, order: IntArray) -> IntArray:
+    """The ``target`` elements with the largest costs, of those that tie the first in the order."""
     ascending = np.sort(costs)
     low, high = _tied(ascending, ascending[-target])
     if ties == "all":
         return np.flatnonzero(costs >= low)
     chosen = costs > high
     last = (costs >= low) & ~chosen
-    ranked = np.flatnonzero(last) if order is None else order[last[order]]
+    ranked = order[last[order]]
     chosen[ranked[: target - np.count_nonzero(chosen)]] = True
     return np.flatnonzero(chosen)
 
 
-def _around(mesh, costs, mark, target, order):
-    """Elements at the worst edges or nodes, as many of these as the target takes."""
-    order = checks.permutation(order, len(costs), mark)
+def _around(mesh: Mesh, costs: FloatArray, mark: str, target: int, order: IntArray) -> IntArray:
+    """Elements at the worst edges or nodes, of which just enough are taken to mark ``target`` elements."""
     corners = _corners(mesh, mark)
     worst = costs[corners].T
     worst = np.maximum(np.maximum(worst[0], worst[1]), worst[2])
@@ -158,15 +166,15 @@ def _around(mesh, costs, mark, target, order):
     return np.flatnonzero(chosen)
 
 
-def _places(order):
-    """Where each number stands in the order."""
+def _places(order: IntArray) -> IntArray:
+    """The place of each number in the order."""
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
     return place
 
 
-def _tied(ascending, value):
-    """Least and largest cost of the group that a cost belongs to, in which all gaps are rounding errors."""
+def _tied(ascending: FloatArray, value: float) -> tuple[float, float]:
+    """Smallest and largest of the costs that count as equal to one of them, gap by gap."""
     gaps = np.flatnonzero(np.diff(ascending) > TIED * np.abs(ascending[[0, -1]]).max())
     place = np.searchsorted(gaps, np.searchsorted(ascending, value))
     low = ascending[gaps[place - 1] + 1] if place else ascending[0]

@@ -6,7 +6,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from .. import checks, criteria
-from .._typing import ArrayLike, FloatArray, IntArray, Values
+from .._typing import ArrayLike, BoolArray, FloatArray, IntArray, Values
 from ..criteria.criterion import Criterion
 from ..errors import InvalidMeshError
 from ..geometry.predicates import orientation
@@ -25,15 +25,16 @@ class Refinement(Record):
     mesh : Mesh
         Conforming; its first N nodes are those of the start mesh.
     values : (N',) ndarray of float64
-        Nodal values: of the function if one was given, else with the means of the
-        old values at the new nodes.
+        Values of the function at the nodes if one was given; else the old values, and
+        at each new node the mean of the old values between which it lies.
     marked : (m,) ndarray of int
-        Elements of the start mesh that the criterion chose.
+        Numbers of the elements of the start mesh that the criterion chose.
     parents : (T',) ndarray of int
-        Element of the start mesh that each new element is a part of; for a green
-        pair put together again, the first of the pair.
+        Number of the element of the start mesh of which each new element is a part; for
+        a green pair put together again, the number of the first of the pair.
     """
 
+    values: FloatArray
     marked: IntArray
     parents: IntArray
     _start: Mesh = field(repr=False)
@@ -51,7 +52,7 @@ class Refinement(Record):
         return float(np.linalg.norm(self._criterion.costs(self.mesh, self.values)))
 
     def __getstate__(self) -> dict[str, object]:
-        """All that can be asked for, computed, since a criterion need not be picklable."""
+        """All results, computed if they have not been: a criterion may not be picklable."""
         lazy = {name: getattr(self, name) for name in ("cost_before", "cost_after")}
         hidden = ("_start", "_start_values", "_criterion")
         return {k: v for k, v in self.__dict__.items() if k not in hidden} | lazy
@@ -79,16 +80,20 @@ def refined(
     criterion : str or Criterion
         For example ``"jnd"``; see `meshlib.criteria`.
     fraction : float
-        Share of the elements to mark, from 0 to 1.
+        Fraction of the elements to mark, from 0 to 1; rounded up to whole elements.
     mark : {"element", "edge", "node", "density"}
-        How costs choose elements, see `meshlib.refinement.marking.marked`.
+        ``"element"``: the elements with the largest mean cost; ``"edge"`` and ``"node"``:
+        all elements at the edges or nodes with the largest costs; ``"density"``: the
+        elements with the largest sum of costs per area.
     split : {"red-green", "centroid", "longest-edge"}
         Bisection of all edges with hanging nodes closed (section 3.2.4), insertion
         of a node at the centroid (3.2.5), bisection of the longest edge (3.2.6).
     ties : {"first", "all"}
-        Whether elements that tie with the last one are left out or marked too.
+        Whether elements that tie with the last one marked are left out or marked too;
+        for ``mark="element"`` and ``mark="density"``.
     order : array_like of int, optional
-        Numbers of the elements, edges or nodes in the order that breaks ties.
+        Numbers of the elements, edges or nodes: of those that tie, the first in this
+        order are marked.  By default they are taken by their numbers.
 
     Returns
     -------
@@ -97,16 +102,21 @@ def refined(
     Raises
     ------
     MeshError
-        If the mesh is not valid, a value is not finite, a name is not known, or the
-        fraction is out of range.
+        If the mesh is not valid, a value is not finite, a name is not known, the fraction
+        is out of range, the order is not a permutation, or an element is too thin to split.
+
+    See Also
+    --------
+    swapped, smoothed, combined : Other ways to lower the error.
+    approximate : A mesh that meets a tolerance.
 
     Notes
     -----
     The mesh remembers its green pairs in ``mesh.green``; swapping, smoothing and the
-    other splits keep those that they leave alone.  When it is refined again, they
-    are put together first (section 3.2.4), so that angles do not deteriorate
-    over repeated calls: every angle is one of the start mesh or of the bisection
-    of an element similar to one of the start mesh.
+    other splits keep the pairs that they do not change.  Red-green refinement first puts
+    these pairs together again (section 3.2.4), so that angles do not deteriorate over
+    repeated calls: every element is similar to one of the start mesh, or half of such
+    an element.
 
     Examples
     --------
@@ -120,8 +130,8 @@ def refined(
     checks.choice(split, tuple(SPLITS), "split")
     mesh, criterion = checks.a_mesh(mesh), criteria.get(criterion)
     chosen = marked_elements(mesh, values, criterion, fraction=fraction, mark=mark, ties=ties, order=order)
-    *parts, corners, green = SPLITS[split](mesh, chosen)
-    elements, parents, green = _by_parent(*parts, green)
+    pieces, origin, corners, pairs = SPLITS[split](mesh, chosen)
+    elements, parents, green = _by_parent(pieces, origin, pairs)
     nodes, whole = _with_means(mesh.nodes, corners), np.bincount(parents, minlength=mesh.n_elements) == 1
     _refuse_too_thin(nodes, elements, parents, ~whole)
     result = Mesh._trusted(nodes, elements, _kept_green(mesh, parents, whole) if green is None else green)
@@ -129,8 +139,10 @@ def refined(
     return Refinement(result, new, chosen, parents, mesh, old, criterion)
 
 
-def _by_parent(elements, parents, green):
-    """The same in the order of the parents."""
+def _by_parent(
+    elements: IntArray, parents: IntArray, green: IntArray | None
+) -> tuple[IntArray, IntArray, IntArray | None]:
+    """Elements in the order of their parents, these parents, and the green pairs by their new numbers."""
     order = np.argsort(parents, kind="stable")
     if green is not None:
         place = np.empty_like(order)
@@ -139,19 +151,19 @@ def _by_parent(elements, parents, green):
     return elements.take(order, axis=0), parents.take(order).astype(np.intp), green
 
 
-def _with_means(values, corners):
-    """Values at the nodes, and at new nodes the means over their corners."""
+def _with_means(values: FloatArray, corners: IntArray) -> FloatArray:
+    """Values at the nodes, followed by the means over each row of ``corners`` for the new nodes."""
     means = reduce(np.add, (values.take(column, axis=0) for column in corners.T)) / corners.shape[1]
     return np.concatenate([values, means])
 
 
-def _kept_green(mesh, parents, whole):
+def _kept_green(mesh: Mesh, parents: IntArray, whole: BoolArray) -> IntArray:
     """The green pairs of which neither half was split, by their new numbers."""
     return np.searchsorted(parents, mesh.green[whole[mesh.green].all(axis=1)])
 
 
-def _refuse_too_thin(nodes, elements, parents, split):
-    """Midpoints are rounded: an element about as thin as that has no parts."""
+def _refuse_too_thin(nodes: FloatArray, elements: IntArray, parents: IntArray, split: BoolArray) -> None:
+    """Raise a MeshError that names elements so thin that rounding turns their parts over."""
     parts = np.flatnonzero(split[parents])
     turns = orientation(*(nodes.take(column, axis=0) for column in elements.take(parts, axis=0).T))
     bad = np.unique(parents[parts[turns <= 0]])
@@ -161,7 +173,7 @@ def _refuse_too_thin(nodes, elements, parents, split):
         )
 
 
-def _values(result, mesh, values, corners):
+def _values(result: Mesh, mesh: Mesh, values: Values, corners: IntArray) -> tuple[FloatArray, FloatArray]:
     """Nodal values of the start mesh and of the result."""
     old = checks.nodal_values(mesh, values)
     return old, checks.nodal_values(result, values) if callable(values) else _with_means(old, corners)

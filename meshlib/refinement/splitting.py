@@ -1,14 +1,18 @@
 """Splits of marked elements into smaller ones (sections 3.2.4 to 3.2.6)."""
 
+from collections.abc import Callable
+
 import numpy as np
 
+from .._typing import BoolArray, IntArray
+from ..mesh.mesh import Mesh
 from ..mesh.topology import HEADS, TAILS, unique
-from .redgreen import red_green
+from .redgreen import Split, red_green
 
-LONGEST = 1e-12  # squared lengths this close, relatively, count as equal
+LONGEST = 1e-12  # difference of squared lengths that count as equal, as a fraction of the longest
 
 
-def centroid(mesh, marked):
+def centroid(mesh: Mesh, marked: IntArray) -> Split:
     r"""Midpoint node insertion (section 3.2.5).
 
     ::
@@ -19,8 +23,8 @@ def centroid(mesh, marked):
          / / \ \
         a-------b
 
-    Returns, like the other splits, the elements in any order, their parents, the corners
-    whose mean each new node is, and the green pairs if it makes some, else None.
+    Returns, like the other splits, the elements in any order, their parents, the nodes
+    of which each new node is the mean, and the green pairs, or None if it makes none.
     """
     corners = mesh.elements[marked]
     a, b, c = corners.T
@@ -32,10 +36,10 @@ def centroid(mesh, marked):
     return elements, np.concatenate([np.flatnonzero(whole), np.repeat(marked, 3)]), corners, None
 
 
-def longest_edge(mesh, marked):
+def longest_edge(mesh: Mesh, marked: IntArray) -> Split:
     r"""Bisection of the longest edge (section 3.2.6), with Rivara's closure.
 
-    Where an edge of an element is bisected, so is its longest edge a-b, first::
+    An element of which any edge is bisected is first cut at its longest edge a-b::
 
             c                     c                c
            / \                   /|\              /|\
@@ -55,11 +59,15 @@ def longest_edge(mesh, marked):
     return elements, np.concatenate([np.flatnonzero(~cut), origin]), mesh.edges.compress(split, axis=0), None
 
 
-SPLITS = {"red-green": red_green, "centroid": centroid, "longest-edge": longest_edge}
+SPLITS: dict[str, Callable[[Mesh, IntArray], Split]] = {
+    "red-green": red_green,
+    "centroid": centroid,
+    "longest-edge": longest_edge,
+}
 
 
-def _longest(mesh):
-    """Which node is opposite the longest edge; among equal ones the smallest edge number."""
+def _longest(mesh: Mesh) -> IntArray:
+    """Column of the node opposite the longest edge of each element; of equal edges, the first."""
     p, q = mesh.edges.T
     dx, dy = (v.take(q) - v.take(p) for v in np.ascontiguousarray(mesh.nodes.T))
     squared = dx**2 + dy**2
@@ -72,13 +80,13 @@ def _longest(mesh):
     return np.where(ranks[0] < np.minimum(ranks[1], ranks[2]), 0, np.where(ranks[1] < ranks[2], 1, 2))
 
 
-def _edge_opposite(mesh, k, elements=slice(None)):
-    """The edge opposite node k of each element."""
+def _edge_opposite(mesh: Mesh, k: IntArray, elements: IntArray | slice = slice(None)) -> IntArray:
+    """The edge opposite node k of each element, with one k for each element of the mesh."""
     return np.take_along_axis(mesh.element_edges[elements], k[elements, None], axis=1)[:, 0]
 
 
-def _closed_under_longest(mesh, longest, marked):
-    """Mask of edges to bisect: with any edge of an element also its longest."""
+def _closed_under_longest(mesh: Mesh, longest: IntArray, marked: IntArray) -> BoolArray:
+    """Mask of the edges to bisect, among them the longest of every element that has one of them."""
     split = np.zeros(mesh.n_edges, dtype=bool)
     elements = marked
     while len(elements):
@@ -90,7 +98,7 @@ def _closed_under_longest(mesh, longest, marked):
     return split
 
 
-def _halves(mesh, elements, k, middle):
+def _halves(mesh: Mesh, elements: IntArray, k: IntArray, middle: IntArray) -> tuple[IntArray, IntArray]:
     """Elements (c, a, m), then (b, c, m), and the middles of c-a, then b-c, or -1."""
     nodes, middles = mesh.elements.take(elements, axis=0), middle[mesh.element_edges.take(elements, axis=0)]
     row, after, before = np.arange(len(elements)), np.take(TAILS, k), np.take(HEADS, k)
@@ -99,7 +107,7 @@ def _halves(mesh, elements, k, middle):
     return halves, np.concatenate([middles[row, before], middles[row, after]])
 
 
-def _cut_again(halves, parents, n):
+def _cut_again(halves: IntArray, parents: IntArray, n: IntArray) -> tuple[IntArray, IntArray]:
     """Elements (p, q, m) cut from m to the middle n of p-q where that is bisected."""
     cut = n >= 0
     (p, q, m), n = halves[cut].T, n[cut]

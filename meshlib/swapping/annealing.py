@@ -1,5 +1,6 @@
 """Beyond the local optimum: simulated annealing over swaps (Schumaker 1993)."""
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,12 +13,9 @@ from ..interpolation.record import Record
 from ..mesh.mesh import Mesh
 from ..support.progress import bar
 from ..support.random_numbers import Draws
+from .procedure import Procedure
 from .swapped import prepared
-from .walk import walk_from
-
-LEVELS, TRIES = 200, 20
-HIGH = 0.9  # quantile of what a swap adds at the local optimum, where the temperature starts
-COLDEST = 1e-3  # of that, where it ends
+from .walk import _Compiled, _Plain, walk_from
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -34,14 +32,16 @@ class Annealing(Record):
         Norm of the cost vector of the start mesh, after the local optimisation procedure
         alone, and of ``mesh``; none is above the one before it.
     temperatures : (L,) ndarray of float64
-        From level to level, in units of what the norm sums.
+        Temperature of each level, in the unit of the costs (L1) or of their squares (L2).
     history : (L,) ndarray of float64
         Norm of the cost vector at the end of each level.
     swaps : int
-        Swaps made on the way.
+        Number of swaps made at all levels, not counting those of the local optimisation procedure.
     seed : int
+        The seed given.
     """
 
+    values: FloatArray
     cost_before: float
     cost_swapped: float
     cost_after: float
@@ -58,8 +58,8 @@ def annealed(
     *,
     norm: Norm = "L2",
     seed: int = 0,
-    levels: int = LEVELS,
-    tries: int = TRIES,
+    levels: int = 200,
+    tries: int = 20,
     min_angle: float | None = None,
     min_area: float | None = None,
     min_gain: float | None = None,
@@ -72,7 +72,7 @@ def annealed(
     mesh, values, criterion, min_angle, min_area, min_gain
         As for `meshlib.swapped`.
     norm : {"L1", "L2"}
-        Also 1 and 2.
+        Norm of the cost vector to lower; 1 and 2 are other names.
     seed : int
         Seed of the random numbers, at least 0.
     levels : int
@@ -80,7 +80,7 @@ def annealed(
     tries : int
         Number of times that each edge is tried at each temperature, on average.
     progress : bool
-        Whether to show a progress bar: temperatures done.
+        Whether to show a progress bar, which counts temperatures.
 
     Returns
     -------
@@ -91,16 +91,23 @@ def annealed(
     MeshError
         As `meshlib.swapped`, or if ``norm``, ``seed``, ``levels`` or ``tries`` is out of range.
 
+    See Also
+    --------
+    swapped : The local optimisation procedure alone.
+    local_optima : The best of many edge orders.
+    optimal : The best of all meshes, proved, where there are few nodes.
+
     Notes
     -----
-    Simulated annealing over swaps, as proposed by Schumaker (1993).  It starts where the
+    Simulated annealing over swaps was proposed by Schumaker (1993).  It starts where the
     local optimisation procedure ends.  An edge is drawn at random; a swap that adds d to
-    the sum of costs, or of their squares, is made with probability min(1, exp(-d / t)).  The
-    temperature t falls geometrically, a thousandfold, from where it is exceeded by a tenth
-    of what the possible swaps add at the local optimum.  The procedure then runs once more,
-    from the last mesh and from the best at the end of a level; the result is the best of
-    three local optima, the first among them, so that it never costs more.  The random
-    numbers are the same on every platform and with every version of NumPy.
+    the sum of the costs (L2: of their squares) is made with probability min(1, exp(-d / t)).
+    The temperature t falls geometrically to a thousandth of its first value.  The first
+    value is the 90 % quantile of the positive d of all possible swaps at the local optimum.
+    The procedure then runs twice more, from the last mesh and from the best mesh at the
+    end of a level.  The result is the best of the three local optima, so that it never
+    costs more than the first.  The random numbers are the same on every platform and with
+    every version of NumPy.
 
     Examples
     --------
@@ -116,28 +123,41 @@ def annealed(
     procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
     local = _settled(procedure, procedure.mesh)
     walk = walk_from(replace(procedure, mesh=local))
-    temperatures = _temperatures(walk.differences(), levels)
+    temperatures = _Cooling().temperatures(walk.differences(), levels)
     cooling = bar(temperatures, unit="temperature") if progress else temperatures
     reached = [local, *_levels(walk, cooling, tries, local.n_edges, Draws(seed))]
     history = np.array([procedure.cost(found) for found in reached])
     candidates = [local, *(_settled(procedure, found) for found in (reached[history.argmin()], reached[-1]))]
     best = min(candidates, key=procedure.cost)
-    costs = (procedure.cost(found) for found in (procedure.mesh, local, best))
-    return Annealing(best, procedure.values, *costs, temperatures, history[1:], walk.swaps, seed)
+    start, swapped, after = (procedure.cost(found) for found in (procedure.mesh, local, best))
+    return Annealing(
+        best, procedure.values, start, swapped, after, temperatures, history[1:], walk.swaps, seed
+    )
 
 
-def _settled(procedure, mesh):
+@dataclass(frozen=True)
+class _Cooling:
+    """How the temperature falls, level by level."""
+
+    start: float = 0.9  # first temperature, as a quantile of the rises by one swap at the local optimum
+    end: float = 1e-3  # last temperature, as a fraction of the first
+
+    def temperatures(self, differences: FloatArray, levels: int) -> FloatArray:
+        """Falling temperatures; none where no swap would raise the cost."""
+        rises = differences[differences > 0]
+        if not len(rises):
+            return np.empty(0)
+        return np.quantile(rises, self.start) * np.geomspace(1, self.end, levels)
+
+
+def _settled(procedure: Procedure, mesh: Mesh) -> Mesh:
     """The mesh after the local optimisation procedure, in the order of its edges."""
     return replace(procedure, mesh=mesh).swapped(np.arange(mesh.n_edges))
 
 
-def _temperatures(differences, levels):
-    """Falling temperatures; none where no swap would change the cost."""
-    rises = differences[differences > 0]
-    return np.quantile(rises, HIGH) * np.geomspace(1, COLDEST, levels) if len(rises) else np.empty(0)
-
-
-def _levels(walk, temperatures, tries, n_edges, draws):
+def _levels(
+    walk: _Compiled | _Plain, temperatures: Iterable[float], tries: int, n_edges: int, draws: Draws
+) -> Iterator[Mesh]:
     """The mesh at the end of each level."""
     for temperature in temperatures:
         edges = draws.indices(n_edges, tries * n_edges)

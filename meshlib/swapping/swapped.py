@@ -7,7 +7,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from .. import checks, criteria
-from .._typing import ArrayLike, IntArray, NDArray, Norm, Values
+from .._typing import ArrayLike, FloatArray, IntArray, NDArray, Norm, Values
 from ..criteria import norms
 from ..criteria.criterion import Criterion
 from ..errors import Interrupted
@@ -39,6 +39,7 @@ class Swapping(Record):
         Number of swaps tried.
     """
 
+    values: FloatArray
     swaps: int
     sweeps: int
     tried: int

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from ... import DataSprings, Interpolant, Mesh, checks, delaunay, problems, refined, smoothed, swapped
-from ...movement.smoothed import MOST_SWEEPS
 from ...support.random_numbers import Draws
 from .measures import GRID_POINTS, L2, Function, Remembered, measured
 
@@ -27,6 +26,7 @@ FINER = 2  # bisections of the lattice that show how it does far from its bounda
 JITTERS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5)  # largest movements of a node along x and y, in spacings
 SEEDS = range(5)
 SMALLEST_ANGLE = 8.0  # degrees, the limit of section 6.1
+MOST_SWEEPS = 1000  # sweeps of node movement, the default of `smoothed`
 SETTLED = 1e-4  # movement of the nodes at which a smoothing ends, relative to the domain
 SKEWNESS = "skewness", "mean"  # measure and statistic
 
