@@ -10,7 +10,7 @@ The compiled forms in `meshlib.kernels.lop` are tested against these.
 
 import numpy as np
 
-from ..interpolation.interpolant import gradients, squared_errors
+from ..interpolation.on_elements import gradients, squared_errors
 from ..mesh.quality import EQUILATERAL, angles
 
 
