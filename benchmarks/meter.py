@@ -9,8 +9,6 @@ from pathlib import Path
 from cases import Case
 from measures import MEASURES
 
-from meshlib.kernels import backend  # noqa: F401 (once loaded, small cases are compiled too)
-
 STATUS, RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")  # exist on Linux
 SMALL = 400  # nodes of the first case, which loads and compiles everything
 MEGABYTE = 1 << 10  # kilobytes, the unit of the status

@@ -32,9 +32,8 @@ print((time.perf_counter() - start) / 20)
 FLOOR = """
 import time; start = time.perf_counter()
 import numba
-from meshlib.kernels.backend import compiled
-from meshlib.kernels.lop import after
-after(1)
+from meshlib.kernels import ANY, for_work
+for_work(ANY).lop.after(1)
 print(time.perf_counter() - start)
 """
 SCRIPTS = {

@@ -255,13 +255,8 @@ def choice(value: T, options: Collection[T], what: str) -> T:
     raise UnknownNameError("unknown", f"{what} {value!r} is not known{hint} (known: {listed})")
 
 
-def permutation(order: ArrayLike | None, size: int, what: str = "edge") -> NDArray[np.int64]:
-    """``order`` as an array that names every edge (element, node) once, or a MeshError.
-
-    None is the order of their numbers.
-    """
-    if order is None:
-        return np.arange(size)
+def permutation(order: ArrayLike, size: int, what: str = "edge") -> NDArray[np.int64]:
+    """``order`` as an array that names every edge (element, node) once, or a MeshError."""
     order = _regular(order, "order")
     if order.shape != (size,) or order.dtype.kind not in "iu":
         raise InvalidInputError(

@@ -111,14 +111,14 @@ PROGRAM = """
 import json, sys
 import numpy as np
 from meshlib import problems, swapped, smoothed, refined
-from meshlib.kernels import backend
-found = {"backend": backend.NAME}
+from meshlib.kernels import ANY, for_work
+found = {"backend": for_work(ANY).name}
 for name in ("jnd", "abn", "dlp", "dfp", "smallest-angle", "largest-angle"):
     for norm in (1, 2, "max"):
         for problem, function in (("33", "SR2"), ("81", "SR3")):
             start = problems.mesh(problem)
             order = np.random.default_rng(5).permutation(start.n_edges)
-            r = swapped(start, problems.functions[function], name, norm, order=order, min_angle=2)
+            r = swapped(start, problems.functions[function], name, norm=norm, order=order, min_angle=2)
             t = r.history
             found[f"{name} {norm} {problem}"] = [r.swaps, r.sweeps, r.tried, r.mesh.elements.tolist(),
                 t[["edge", "a", "b", "c", "d", "accepted"]].tolist(), t["old"].tolist(), t["new"].tolist()]
@@ -181,7 +181,7 @@ MANY_SMALL = (
     + """
 from meshlib import kernels
 mesh = problems.mesh("33")
-kernels.BUDGET = 3 * 25 * mesh.n_edges  # of three runs: a result, its trace, and another result
+kernels.PRICE = 3 * 25 * mesh.n_edges  # of three runs: a result, its trace, and another result
 for order in (None, np.arange(mesh.n_edges)[::-1]):
     show(swapped(mesh, problems.SR2, order=order))
 """
@@ -216,17 +216,18 @@ def test_numba_is_loaded_where_it_pays_and_nothing_else_depends_on_it(program, l
 
 
 def test_an_unknown_backend_is_named():
-    result = run("from meshlib.kernels import backend", "nuba")
+    result = run("from meshlib.kernels import for_work; for_work(1)", "nuba")
     assert result.returncode == 1
     assert result.stderr.splitlines()[-1] == (
-        "meshlib.errors.MeshError: unknown: MESHLIB_BACKEND 'nuba' is not known; did you mean 'numba'? "
+        "meshlib.errors.UnknownNameError: unknown: MESHLIB_BACKEND 'nuba' is not known; did you mean 'numba'? "
         "(known: 'auto', 'numba', 'python')"
     )
 
 
 def test_without_numba_the_extra_is_named():
     hidden = (
-        "import sys; sys.modules['numba'] = None\nfrom meshlib.kernels import backend\nprint(backend.NAME)"
+        "import sys; sys.modules['numba'] = None\n"
+        "from meshlib.kernels import ANY, for_work\nprint(for_work(ANY).name)"
     )
     assert run(hidden, "auto").stdout == "python\n"
     last = run(hidden, "numba").stderr.splitlines()[-1]
@@ -234,11 +235,11 @@ def test_without_numba_the_extra_is_named():
 
 
 def test_the_backend_of_this_run_is_the_one_asked_for():
-    from meshlib.kernels import backend
+    from meshlib.kernels import ANY, for_work
 
     installed = importlib.util.find_spec("numba") is not None
     asked = os.environ.get("MESHLIB_BACKEND", "auto")
-    assert ("numba" if asked != "python" and installed else "python") == backend.NAME
+    assert ("numba" if asked != "python" and installed else "python") == for_work(ANY).name
 
 
 def test_core_needs_neither_numba_nor_matplotlib():

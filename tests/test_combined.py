@@ -10,9 +10,8 @@ from strategies import meshes
 
 from meshlib import Interpolant, Mesh, MeshError, combined, criteria, delaunay, problems, refined, swapped
 from meshlib.combination.combined import LEAST_GAIN, _objective, _Run
-from meshlib.kernels import COMPILED, INTERPRETED
+from meshlib.kernels import ANY, for_work
 from meshlib.mesh.quality import angles
-from meshlib.swapping import procedure as procedures
 
 PLACES = {"edge": "jnd", "element": None, "node": "gradient-spread"}  # None: the L2 error
 FUNCTIONS = {
@@ -221,12 +220,12 @@ def test_green_pairs_that_are_left_alone_stay():
 
 
 @pytest.mark.parametrize("criterion", ["jnd", None])
-def test_compiled_and_interpreted_kernels_agree(criterion, small, monkeypatch):
-    def run(kernels):
-        monkeypatch.setattr(procedures, "for_work", lambda steps: kernels)
+def test_compiled_and_plain_kernels_agree(criterion, small, monkeypatch):
+    def run(backend):
+        monkeypatch.setenv("MESHLIB_BACKEND", backend)
         return combined(small, problems.SR2, criterion, max_sweeps=2)
 
-    first, second = map(run, (COMPILED, INTERPRETED))
+    first, second = map(run, ("auto" if for_work(ANY).is_compiled else "python", "python"))
     assert first.mesh.equals(second.mesh)
     assert first.history.tolist() == second.history.tolist()
 

@@ -10,8 +10,7 @@ from support import lattice
 from meshlib import Interpolant, Mesh, delaunay
 from meshlib.geometry import predicates
 from meshlib.interpolation import locate_by_buckets, locate_by_strips
-from meshlib.kernels import element_shapes
-from meshlib.kernels.backend import readable
+from meshlib.kernels import ANY, for_work
 
 
 def slow(mesh, points):
@@ -41,7 +40,7 @@ def points_around(mesh, seed, count=40):
 def test_all_ways_choose_the_same_element(mesh, seed):
     points = points_around(mesh, seed)
     box = ((points >= mesh.nodes.min(axis=0)) & (points <= mesh.nodes.max(axis=0))).all(axis=1)
-    found = locate_by_strips.Strips(mesh, points).elements()
+    found = locate_by_strips.Strips(mesh, points, for_work(ANY)).elements()
     assert found.tolist() == locate_by_buckets.by_buckets(mesh, points).tolist()
     assert found[box].tolist() == slow(mesh, points[box])
     assert (found[~box] == -1).all()
@@ -53,7 +52,7 @@ def test_values_in_strips_are_those_in_arrays(problem, seed):
     mesh, values = problem
     points = points_around(mesh, seed)
     found, expected = (
-        locate_by_strips.Strips(mesh, points).values(values),
+        locate_by_strips.Strips(mesh, points, for_work(ANY)).values(values),
         Interpolant(mesh, values)(*points.T),
     )
     assert np.array_equal(np.isnan(found), np.isnan(expected))
@@ -67,9 +66,10 @@ def test_flat_is_what_the_predicate_says(mesh, lift):
     nodes = mesh.nodes[mesh.elements].copy()
     nodes[::2, 2] = nodes[::2, :2].mean(axis=1) * (1 + lift)
     unit = float(np.abs(nodes).max())
-    each = readable(np.arange(3 * len(nodes)).reshape(-1, 3))
+    kernels = for_work(ANY)
+    node = kernels.readable(nodes)
     found = [
-        element_shapes.is_flat(readable(nodes), *each[3 * t : 3 * t + 3], unit) for t in range(len(nodes))
+        kernels.element_shapes.is_flat(node, (3 * t, 3 * t + 1, 3 * t + 2), unit) for t in range(len(nodes))
     ]
     assert found == predicates.nearly_flat(nodes).tolist()
 
@@ -81,7 +81,9 @@ def test_long_elements_between_two_diagonals(shift):
     nodes = np.concatenate([np.column_stack([step, step]), np.column_stack([step + 50, step - 50])]) + shift
     mesh = delaunay(nodes)
     points = mesh.corners.mean(axis=1)
-    assert locate_by_strips.Strips(mesh, points).elements().tolist() == list(range(mesh.n_elements))
+    assert locate_by_strips.Strips(mesh, points, for_work(ANY)).elements().tolist() == list(
+        range(mesh.n_elements)
+    )
     assert locate_by_buckets.by_buckets(mesh, points).tolist() == list(range(mesh.n_elements))
 
 
@@ -97,7 +99,7 @@ def test_many_slivers_share_few_cells():
 
 def test_crowded_points_have_narrow_strips(rng):
     points = rng.random((5000, 2)) ** 4
-    sorted_in = locate_by_strips.Strips(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]), points)
+    sorted_in = locate_by_strips.Strips(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]), points, for_work(ANY))
     widths = np.diff(sorted_in.edge[:-1])
     assert sorted_in.size == 100 and len(widths) == 49 and widths[0] < 1e-3 < 0.05 < widths[-1]
     assert np.array_equal(np.sort(sorted_in.order), np.arange(5000))
@@ -106,10 +108,12 @@ def test_crowded_points_have_narrow_strips(rng):
 
 
 def test_no_points_and_points_that_are_none(frame):
-    assert locate_by_strips.Strips(frame, np.empty((0, 2))).elements().tolist() == []
+    assert locate_by_strips.Strips(frame, np.empty((0, 2)), for_work(ANY)).elements().tolist() == []
     none = np.array([[np.nan, 1], [np.inf, 0], [1.5, 1.5], [9, 9], [0.5, 0.25]])
-    assert locate_by_strips.Strips(frame, none).elements().tolist()[:4] == [-1] * 4
-    assert np.isnan(locate_by_strips.Strips(frame, none).values(np.ones(16))).tolist() == [True] * 4 + [False]
+    assert locate_by_strips.Strips(frame, none, for_work(ANY)).elements().tolist()[:4] == [-1] * 4
+    assert np.isnan(locate_by_strips.Strips(frame, none, for_work(ANY)).values(np.ones(16))).tolist() == [
+        True
+    ] * 4 + [False]
 
 
 def test_many_points_on_a_lattice_of_many_elements():

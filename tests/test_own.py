@@ -11,10 +11,10 @@ from strategies import problems_of
 from support import lattice, shuffled
 
 from meshlib import Interpolant, Mesh, MeshError, criteria, delaunay, problems, swapped
-from meshlib.kernels.backend import NAME
+from meshlib.kernels import ANY, for_work
 from meshlib.mesh.topology import from_smallest
 
-NUMBA = NAME == "numba"
+NUMBA = for_work(ANY).is_compiled
 
 
 def jump(px, py, pu, qx, qy, qu, lx, ly, lu, rx, ry, ru):

@@ -118,7 +118,7 @@ def test_edges_by_counting_are_those_by_sorting(hole, rng, monkeypatch):
     mesh = delaunay(rng.random((MANY // 2 + 200, 2)))
     elements = mesh.elements[mesh.nodes[mesh.elements].mean(axis=1)[:, 0] > 0.01] if hole else mesh.elements
     assert len(elements) >= MANY
-    monkeypatch.setattr("meshlib.mesh.topology._kernels_are_compiled", lambda: True)
+    monkeypatch.setattr("meshlib.mesh.topology.compiled_for_work", for_work)
     counted = edge_table(elements, mesh.n_nodes)
     monkeypatch.setattr("meshlib.mesh.topology.MANY", np.inf)
     for ours, theirs in zip(counted, edge_table(elements, mesh.n_nodes), strict=True):

@@ -32,7 +32,7 @@ class _Sweep:
     def classes(self):
         """The nodes that may move, one colour after the other."""
         kernels = for_work(self.settings.colouring * self.draft.n_nodes)
-        flat = kernels.backend.flat
+        flat = kernels.flat
         colour = flat(np.full(self.draft.n_nodes, -1, dtype=np.int32))
         kernels.colours.first_free(flat(self.around.starts), flat(self.around.numbers), colour)
         colour = np.where(self.draft.side != CORNER, np.asarray(colour), -1)

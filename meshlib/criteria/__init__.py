@@ -1,9 +1,9 @@
 """Criteria: a cost for each edge, element or node, and an order on cost vectors.
 
 A criterion in the sense of section 2.2 is a cost function together with a norm.
-The cost functions are kept here by name; the norm is chosen where they are used.
+The cost functions are registered here by name; the norm is chosen where they are used.
 
-To write one's own, give a vectorised cost and where it lives:
+A user-defined criterion is a vectorised cost, together with the place that has it:
 
 >>> import numpy as np
 >>> def kink(p, q, left, right):
@@ -15,10 +15,11 @@ To write one's own, give a vectorised cost and where it lives:
 True
 >>> unregister("kink")
 
-Every argument of an edge cost is an (n, 3) array of points (x, y, u): the ends p, q
-of n edges, and the opposite nodes of the elements to their left and right.  An
-element cost gets its three nodes likewise, a node cost the `Interpolant`.  Costs
-must be at least 0, and larger where the mesh is worse.
+A cost on edges takes four (n, 3) arrays of points (x, y, u): the ends p, q of n edges
+and the nodes opposite to them in the elements to their left and right.  A cost on
+elements takes three such arrays, one for each corner; a cost on nodes takes the
+`meshlib.Interpolant`.  Each returns n numbers, which must be at least 0 and larger
+where the mesh is worse.
 """
 
 from .criterion import Criterion

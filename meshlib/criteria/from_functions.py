@@ -7,42 +7,38 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import checks
-from .._typing import Function
+from .._typing import FloatArray, Function
 from ..errors import InvalidInputError
 from ..geometry import quadrature
-from ..kernels import codes
+from ..kernels import codes, user_costs
 from .cost_functions import element_errors
 from .criterion import PLACES, Criterion
-
-ERROR_DEGREE = 6
 
 
 @dataclass(frozen=True)
 class _Given:
-    """Gives a cost as it is."""
+    """Returns the cost of one edge or element that a user has given."""
 
-    cost: Callable
+    cost: Callable[..., float]
 
-    def __call__(self):
+    def __call__(self) -> Callable[..., float]:
         return self.cost
 
 
 @dataclass(frozen=True)
 class _ErrorOnElement:
-    """Gives the error on one element as a function of numbers."""
+    """Returns the error on one element as a function of nine numbers, x, y, u of its nodes."""
 
-    function: Callable
+    function: Function
     degree: int
 
-    def __call__(self):
-        from ..kernels import user_costs
-
+    def __call__(self) -> Callable[..., float]:
         points, weights = quadrature.rule(self.degree)
         plain = getattr(self.function, "function", self.function)  # a TestFunction wraps its formula
         return user_costs.error_of(plain, tuple(map(tuple, points.tolist())), tuple(weights.tolist()))
 
 
-def min_error(function: Function, *, degree: int = ERROR_DEGREE) -> Criterion:
+def min_error(function: Function, *, degree: int = 6) -> Criterion:
     """The min-error criterion (section 2.4.1) for a known function u.
 
     Parameters
@@ -50,13 +46,17 @@ def min_error(function: Function, *, degree: int = ERROR_DEGREE) -> Criterion:
     function : callable
         Vectorised u(x, y).
     degree : int
-        Polynomial degree of (u - u_h)^2 that the quadrature integrates exactly.
+        Degree up to which the quadrature integrates a polynomial (u - u_h)^2 exactly.
 
     Returns
     -------
     Criterion
-        On elements; compiled if numba can compile the function for single points.  With norm 2
-        the norm of its cost vector is the L2 error.
+        On elements, with the L2 norm of u - u_h as the cost; compiled if numba can compile
+        the function for single points.  The 2-norm of its cost vector is the L2 error.
+
+    See Also
+    --------
+    meshlib.Interpolant.l2_error
 
     Examples
     --------
@@ -67,7 +67,7 @@ def min_error(function: Function, *, degree: int = ERROR_DEGREE) -> Criterion:
     True
     """
 
-    def cost(a, b, c):
+    def cost(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
         return element_errors(a, b, c, function, degree)
 
     return Criterion(
@@ -76,7 +76,7 @@ def min_error(function: Function, *, degree: int = ERROR_DEGREE) -> Criterion:
         cost,
         "L2 error",
         lambda extent, height: height * extent,
-        codes.OWN_ELEMENT,
+        codes.USER_ELEMENT,
         pointwise=_ErrorOnElement(function, degree),
     )
 
@@ -89,7 +89,7 @@ def pointwise(
     title: str = "",
     unit: Callable[[float, float], float] | None = None,
 ) -> Criterion:
-    """A criterion of one's own, given by the cost of a single edge or element.
+    """A user-defined criterion, given by the cost of a single edge or element.
 
     The procedure then runs as it does for built-in criteria: compiled by numba where
     that is installed.  If numba cannot compile the function, a warning says so, and it
@@ -100,19 +100,32 @@ def pointwise(
     name, title, unit
         As for `Criterion`.
     on : {"edge", "element"}
+        Part of the mesh that has a cost.
     cost : callable
-        A function of numbers, in the Python that numba compiles.  On an edge twelve:
-        x, y, u of its ends p and q and of the opposite nodes to its left and right.  On
-        an element nine: x, y, u of its three nodes.  Returns a number of at least 0.
+        A function of numbers that returns a number of at least 0, in the Python that numba
+        compiles.  A cost on edges takes twelve: x, y, u of the ends p and q and of the nodes
+        opposite to the left and to the right.  A cost on elements takes nine: x, y, u of
+        the three nodes.
 
     Returns
     -------
     Criterion
+        Not yet registered.
 
     Raises
     ------
     MeshError
-        If ``on`` is another place, or the cost not a function.
+        If ``on`` is another place, or the cost is not a function.
+
+    Warns
+    -----
+    RuntimeWarning
+        If numba is installed and cannot compile the cost.
+
+    See Also
+    --------
+    Criterion : From a vectorised cost.
+    register : Make a criterion available by its name.
 
     Examples
     --------
@@ -128,10 +141,10 @@ def pointwise(
     if not callable(cost):
         raise InvalidInputError("type", f"the cost of {name!r} is {cost!r}; give a function")
 
-    def vectorised(*points):
+    def vectorised(*points: FloatArray) -> FloatArray:
         return _one_by_one(cost, on, points)
 
-    code = codes.OWN_EDGE if on == "edge" else codes.OWN_ELEMENT
+    code = codes.USER_EDGE if on == "edge" else codes.USER_ELEMENT
     unit = unit or (lambda extent, height: 0.0)
     found = Criterion(name, on, vectorised, title, unit, code, pointwise=_Given(cost))
     if found.pointer is None:
@@ -143,14 +156,9 @@ def pointwise(
     return found
 
 
-def _one_by_one(cost, on, points):
+def _one_by_one(cost: Callable[..., float], on: str, points: tuple[FloatArray, ...]) -> FloatArray:
     """The cost of each edge or element, from (n, 3) arrays of its four or three points."""
-    from ..kernels import user_costs
-    from ..kernels.backend import flat, readable
-
     given = user_costs.pointer(_Given(cost), on)
     if given is None:
         return np.array([cost(*numbers) for numbers in np.concatenate(points, axis=1).tolist()])
-    costs = flat(np.empty(len(points[0])))
-    user_costs.evaluated(given, readable(np.concatenate([*points, points[0]][:4], axis=1)), costs)
-    return np.asarray(costs)
+    return user_costs.evaluated(given, np.concatenate([*points, points[0]][:4], axis=1))

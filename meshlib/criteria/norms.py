@@ -1,19 +1,28 @@
 """Orders on cost vectors (section 2.2): L1, L2, maximum and lexicographic."""
 
 from collections.abc import Hashable
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from .. import checks
-from .._typing import Norm
+from .._typing import ArrayLike, Norm
+
+Measure: TypeAlias = float | tuple[float, ...]  # of a cost vector, as the orders compare it
 
 NORMS = (1, 2, "max", "lexicographic")
-SPELLINGS = {"L1": 1, "L2": 2, np.inf: "max"}  # other names of the first three
-RELATIVE, ABSOLUTE = 1e-12, 1e-11  # least gain, relative to the old cost and to a typical one
+SPELLINGS: dict[Hashable, Norm] = {"L1": 1, "L2": 2, np.inf: "max"}  # other names of the first three
+
+
+class Tolerance(NamedTuple):
+    """Gain that a norm must exceed to count as one: the sum of two parts."""
+
+    relative: float = 1e-12  # fraction of the old norm, more than the rounding of a sum of five costs
+    absolute: float = 1e-11  # gain in the unit of the costs, if a typical cost is 1
 
 
 def checked(norm: Norm, allowed: tuple[Norm, ...] = NORMS) -> Norm:
-    """The norm as it stands in ``NORMS``, if it is one of those that are allowed.
+    """The norm under its name in ``NORMS``, or a MeshError if it is not among those allowed.
 
     Examples
     --------
@@ -22,17 +31,17 @@ def checked(norm: Norm, allowed: tuple[Norm, ...] = NORMS) -> Norm:
     """
     plain = SPELLINGS.get(norm, norm) if isinstance(norm, Hashable) else norm
     if np.isscalar(plain) and plain in allowed:
-        return plain
+        return cast("Norm", plain)
     spelt = {short: name for name, short in SPELLINGS.items() if isinstance(name, str)}
     return checks.choice(norm, tuple(spelt.get(n, n) for n in allowed), "norm")
 
 
-def measure(costs, norm, grain=0.0):
-    """What an order compares: the sum, the sum of squares, the maximum, or all, sorted.
+def measure(costs: ArrayLike, norm: Norm, grain: float = 0.0) -> Measure:
+    """What an order compares: the sum, the sum of squares, the maximum, or all costs, largest first.
 
     The L2 norm is compared by its square, which needs no root.  For the
-    lexicographic order costs are rounded to multiples of ``grain``, which makes ties
-    of what differs by rounding noise and keeps the order transitive.
+    lexicographic order costs are rounded to multiples of ``grain``: costs that differ by
+    rounding noise are then equal, and the order is transitive.
 
     Examples
     --------
@@ -52,7 +61,7 @@ def measure(costs, norm, grain=0.0):
     }[checked(norm)]()
 
 
-def norm_of(costs, norm):
+def norm_of(costs: ArrayLike, norm: Norm) -> float:
     """The norm of a cost vector; for the lexicographic order its largest entry.
 
     Examples
@@ -61,36 +70,40 @@ def norm_of(costs, norm):
     (5.0, 7.0)
     """
     found = measure(costs, norm)
-    return found**0.5 if norm == 2 else found[0] if isinstance(found, tuple) else found
+    if isinstance(found, tuple):
+        return found[0]
+    return found**0.5 if norm == 2 else found
 
 
-def tolerance(scale):
-    """Relative and absolute gain of a norm that a swap must exceed, for costs of this scale."""
-    return RELATIVE, ABSOLUTE * scale
+def tolerance(scale: float) -> Tolerance:
+    """The gain of a norm that a swap must exceed, where a typical cost is ``scale``."""
+    unit = Tolerance()
+    return unit._replace(absolute=unit.absolute * scale)
 
 
-def is_below(new, old, norm, relative, absolute):
+def is_below(new: Measure, old: Measure, norm: Norm, relative: float, absolute: float) -> bool:
     """Whether a measure is below another by more than the tolerance.
 
-    For the L2 norm the roots are compared: costs h that are known but for d are so
-    squared but for 2 h d, which no fixed tolerance on squares would cover.  With a
-    negative absolute part the measure may also rise, by less than that.
+    For the L2 norm the roots are compared.  An error d of a cost h is an error 2 h d of
+    its square, so that no fixed tolerance would do for squares.  With a negative
+    ``absolute`` the measure may also rise, by less than ``-absolute``.
 
     Examples
     --------
     >>> is_below(1.0, 2.0, 2, *tolerance(1.0)), is_below(1.0, 1.0 + 1e-15, 2, *tolerance(1.0))
     (True, False)
     """
-    if isinstance(new, tuple):
+    if isinstance(new, tuple) and isinstance(old, tuple):
         return new < old
-    if new >= old:
-        return new - old < -absolute
+    after, before = cast("tuple[float, float]", (new, old))
+    if after >= before:
+        return after - before < -absolute
     if norm == 2:
-        new, old = new**0.5, old**0.5
-    return new < old * (1 - relative) - absolute
+        after, before = after**0.5, before**0.5
+    return after < before * (1 - relative) - absolute
 
 
-def precedes(first, second, norm, scale=0.0):
+def precedes(first: ArrayLike, second: ArrayLike, norm: Norm, scale: float = 0.0) -> bool:
     """Whether the first cost vector comes strictly before the second.
 
     Examples
@@ -99,5 +112,5 @@ def precedes(first, second, norm, scale=0.0):
     (True, True)
     """
     relative, absolute = tolerance(scale)
-    first, second = (measure(costs, norm, absolute) for costs in (first, second))
-    return is_below(first, second, norm, relative, absolute)
+    new, old = (measure(costs, norm, absolute) for costs in (first, second))
+    return is_below(new, old, norm, relative, absolute)

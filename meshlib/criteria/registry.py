@@ -42,12 +42,24 @@ def costs(mesh: Mesh, values: Values, criterion: str | Criterion = "jnd") -> Flo
     ----------
     mesh : Mesh
     values : (N,) array_like of float, or callable
+        Values of u at the nodes, or a vectorised function u(x, y).
     criterion : str or Criterion
+        For example ``"jnd"``; see `names`.
 
     Returns
     -------
     (E,), (T,) or (N,) ndarray of float64
         One cost for each edge, element or node; 0 on boundary edges.
+
+    Raises
+    ------
+    MeshError
+        If the mesh is not valid, a value is not finite, the criterion is not known, or
+        a user-defined cost is negative or not finite.
+
+    See Also
+    --------
+    prefers : Compare two meshes by their cost vectors.
 
     Examples
     --------
@@ -72,17 +84,28 @@ def prefers(
     Parameters
     ----------
     mesh_a, mesh_b : Mesh
-    values : array_like, callable, or pair of these
-        Nodal values of both meshes; a pair if their nodes differ.  Criteria that
-        depend on geometry alone need none.
+        Meshes to compare.
+    values : array_like, callable, or tuple of two of these
+        Nodal values on both meshes, or a vectorised function u(x, y); a tuple of two
+        if the nodes differ.  Criteria that depend on geometry alone need none.
     criterion : str or Criterion
+        For example ``"jnd"``; see `names`.
     norm : {"L1", "L2", "max", "lexicographic"}
-        1, 2 and infinity are other names of the first three.
+        Order on cost vectors; 1, 2 and infinity are other names of the first three.
 
     Returns
     -------
     bool
         True if the cost vector of ``mesh_a`` comes strictly before that of ``mesh_b``.
+
+    Raises
+    ------
+    MeshError
+        As `costs`, or if the norm is not known, or values are missing.
+
+    See Also
+    --------
+    costs : The cost vector that is compared.
 
     Examples
     --------
@@ -109,7 +132,33 @@ _registry: dict[str, Criterion] = {}
 
 
 def register(criterion: Criterion) -> Criterion:
-    """File a criterion under its name, for widgets, `swapped` and `refined`; returns it."""
+    """Make a criterion available by its name, to functions, explorers and the command line.
+
+    Parameters
+    ----------
+    criterion : Criterion
+
+    Returns
+    -------
+    Criterion
+        The one given.
+
+    Raises
+    ------
+    MeshError
+        If it is something else, or the name is taken.
+
+    See Also
+    --------
+    unregister, names, get
+
+    Examples
+    --------
+    >>> height = Criterion("height", "element", lambda a, b, c: abs(a + b + c)[:, 2] / 3)
+    >>> register(height).name, "height" in names("element")
+    ('height', True)
+    >>> unregister("height")
+    """
     if not isinstance(criterion, Criterion):
         raise InvalidInputError("type", f"this is a {type(criterion).__name__}; register a Criterion")
     if criterion.name in _registry:
@@ -119,12 +168,40 @@ def register(criterion: Criterion) -> Criterion:
 
 
 def unregister(name: str) -> None:
-    """Take a criterion out of the registry."""
+    """Take a criterion out of the registry.
+
+    Parameters
+    ----------
+    name : str
+
+    Raises
+    ------
+    MeshError
+        If no criterion of that name is registered.
+
+    See Also
+    --------
+    register
+    """
     del _registry[checks.choice(name, names(), "criterion")]
 
 
 def names(on: str | None = None) -> tuple[str, ...]:
-    """Names of the registered criteria, of one place (edge, element, node) or of all.
+    """Names of the registered criteria.
+
+    Parameters
+    ----------
+    on : {"edge", "element", "node"}, optional
+        Only those with costs on this part of a mesh.
+
+    Returns
+    -------
+    tuple of str
+        In the order in which they were registered.
+
+    See Also
+    --------
+    get, register
 
     Examples
     --------
@@ -135,12 +212,25 @@ def names(on: str | None = None) -> tuple[str, ...]:
 
 
 def get(criterion: str | Criterion) -> Criterion:
-    """The criterion of that name; a Criterion is returned as it is.
+    """The registered criterion of a name.
+
+    Parameters
+    ----------
+    criterion : str or Criterion
+        A Criterion is returned as it is.
+
+    Returns
+    -------
+    Criterion
 
     Raises
     ------
     MeshError
-        If the name is not registered; it proposes the nearest one.
+        If the name is not registered; the message proposes the nearest one.
+
+    See Also
+    --------
+    names, register
 
     Examples
     --------

@@ -11,8 +11,8 @@ from ..errors import InvalidInputError
 from ..kernels import for_work
 from ..mesh.mesh import Mesh
 from ..support.drawing import drawn
-from . import locate_by_strips
-from .locate_by_buckets import located
+from .locate_by_buckets import by_buckets
+from .locate_by_strips import in_strips
 from .on_elements import gradients, squared_errors
 
 DEFAULT_DEGREE = 8  # polynomial degree up to which quadrature is exact
@@ -89,9 +89,10 @@ class Interpolant:
 
     def _at(self, points: FloatArray) -> FloatArray:
         """Values at the rows of an array of points."""
-        if locate_by_strips.is_faster(self.mesh, points):
-            return locate_by_strips.Strips(self.mesh, points).values(self.values)
-        element = located(self.mesh, points)
+        strips = in_strips(self.mesh, points)
+        if strips is not None:
+            return strips.values(self.values)
+        element = by_buckets(self.mesh, points)
         first = self.mesh.elements[element, 0]
         away = points - self.mesh.nodes[first]
         values = self.values[first] + (self.gradients[element] * away).sum(axis=1)
@@ -133,21 +134,14 @@ class Interpolant:
     def _raster(self, low: FloatArray, high: FloatArray, nx: int, ny: int) -> FloatArray:
         """Values on a grid of ny rows and nx columns from the corner ``low`` to the corner ``high``."""
         kernels = for_work(STEPS_OF_AN_ELEMENT * self.mesh.n_elements + nx * ny // POINTS_IN_A_STEP)
-        raster, readable = kernels.raster, kernels.backend.readable
-        step = (high - low) / (nx - 1, ny - 1)
-        unit = np.abs([low, high]).max()
-        slack = raster.SLACK + ROUNDING * (np.abs([low, high]).max(axis=0) / step).max()
-        grid = kernels.backend.writable(np.full(nx * ny, np.nan))
-        raster.filled(
-            grid,
-            nx,
-            ny,
-            *map(float, (*low, *1 / step, slack, unit)),
-            readable(self.mesh.elements),
-            readable(self.mesh.nodes),
-            readable(self.values),
-        )
-        return np.reshape(grid, (ny, nx))
+        step, largest = (high - low) / (nx - 1, ny - 1), np.abs([low, high]).max(axis=0)
+        slack = kernels.raster.SLACK + ROUNDING * (largest / step).max()
+        values = kernels.writable(np.full(nx * ny, np.nan))
+        start, cells = tuple(low.tolist()), tuple((1 / step).tolist())
+        grid = kernels.raster.Grid(values, nx, ny, start, cells, float(slack))
+        arrays = map(kernels.readable, (self.mesh.elements, self.mesh.nodes, self.values))
+        kernels.raster.filled(grid, *arrays, float(largest.max()))
+        return np.reshape(values, (ny, nx))
 
     def l2_error(
         self, function: Function, *, rule: str = "exact", points: int = 101, degree: int = DEFAULT_DEGREE

@@ -4,10 +4,9 @@ import numpy as np
 
 from .._typing import FloatArray, IntArray
 from ..geometry.predicates import nearly_flat
+from ..kernels.element_shapes import INSIDE
 from ..mesh.mesh import Mesh
-from . import locate_by_strips
-
-INSIDE = 1e-12  # barycentric coordinate that counts as 0, on either side of an edge
+from .locate_by_strips import in_strips
 
 
 def located(mesh: Mesh, points: FloatArray) -> IntArray:
@@ -32,9 +31,8 @@ def located(mesh: Mesh, points: FloatArray) -> IntArray:
     >>> located(mesh, np.array([[0.9, 0.1], [0.1, 0.9], [2.0, 0.0]])).tolist()
     [0, 1, -1]
     """
-    if locate_by_strips.is_faster(mesh, points):
-        return locate_by_strips.Strips(mesh, points).elements()
-    return by_buckets(mesh, points)
+    strips = in_strips(mesh, points)
+    return by_buckets(mesh, points) if strips is None else strips.elements()
 
 
 def by_buckets(mesh: Mesh, points: FloatArray) -> IntArray:

@@ -10,18 +10,19 @@ from typing import Any
 import numpy as np
 
 from .._typing import FloatArray, IntArray, NDArray
+from ..kernels import compiled_for_work
+from ..kernels.backend import Plain
 from ..mesh.mesh import Mesh
 
-FEW = 20_000  # number of elements and points that plain NumPy searches before numba is imported
+FEW = 20_000  # number of elements and points below which buckets are as fast
+POINTS_IN_A_STEP = 2  # number of elements and points that buckets manage in about a microsecond
 
 
-def is_faster(mesh: Mesh, points: FloatArray) -> bool:
-    """Whether this search is faster than NumPy; for a few points the import of numba takes longer."""
-    if len(points) + mesh.n_elements < FEW:
-        return False
-    from ..kernels import backend
-
-    return backend.NAME == "numba"
+def in_strips(mesh: Mesh, points: FloatArray) -> "Strips | None":
+    """The points in strips; None if they are too few to load compiled kernels, or there are no such."""
+    size = len(points) + mesh.n_elements
+    kernels = compiled_for_work(size / POINTS_IN_A_STEP) if size >= FEW else None
+    return Strips(mesh, points, kernels) if kernels else None
 
 
 class Strips:
@@ -30,8 +31,8 @@ class Strips:
     cells = np.uint16(128)  # number of cells in a row of the grid that sorts the elements
     slenderness = 2.0  # number of points in a strip, divided by the number of strips
 
-    def __init__(self, mesh: Mesh, points: FloatArray) -> None:
-        self.mesh, self.points = mesh, points
+    def __init__(self, mesh: Mesh, points: FloatArray, kernels: Plain) -> None:
+        self.mesh, self.points, self._kernels = mesh, points, kernels
         low, high = mesh.box
         known = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1))  # NaN is not
         self.unit = float(np.abs([low, high]).max())
@@ -57,20 +58,24 @@ class Strips:
 
     def _search(self) -> IntArray:
         """The element of each point, in the order of the strips."""
-        from ..kernels import location
-        from ..kernels.backend import readable, writable
-
+        kernels, writable = self._kernels, self._kernels.writable
         best = writable(np.full(len(self.order), -np.inf))
         found = writable(np.full(len(self.order), -1, dtype=np.int32))
-        location.searched(
-            *map(readable, (self.x, self.y)),
-            self.size,
-            *map(readable, (self.edge, self._neighbouring(), self.mesh.elements, self.mesh.nodes)),
-            self.unit,
-            best,
-            found,
-        )
+        search = kernels.location.Search(best, found)
+        kernels.location.searched(self._strips(), self._elements(), search)
         return found
+
+    def _strips(self) -> Any:
+        """The strips as the kernels take them."""
+        x, y, edge = map(self._kernels.readable, (self.x, self.y, self.edge))
+        return self._kernels.location.Strips(x, y, self.size, edge)
+
+    def _elements(self) -> Any:
+        """The elements as the kernels take them."""
+        order, nodes, place = map(
+            self._kernels.readable, (self._neighbouring(), self.mesh.elements, self.mesh.nodes)
+        )
+        return self._kernels.location.Elements(order, nodes, place, self.unit)
 
     def _neighbouring(self) -> IntArray:
         """Numbers of the elements, cell by cell of a grid, so that nodes and points are near in memory."""
@@ -84,17 +89,9 @@ class Strips:
 
     def values(self, values: FloatArray) -> FloatArray:
         """Values at the points of the interpolant of nodal values, NaN outside the domain."""
-        from ..kernels import location
-        from ..kernels.backend import readable, writable
-
-        value = writable(np.full(len(self.order), np.nan))
-        location.interpolated(
-            *map(readable, (self.x, self.y)),
-            self._search(),
-            readable(self.mesh.elements),
-            readable(self.mesh.nodes),
-            readable(values),
-            value,
+        value = self._kernels.writable(np.full(len(self.order), np.nan))
+        self._kernels.location.interpolated(
+            self._strips(), self._elements(), self._search(), self._kernels.readable(values), value
         )
         return self._in_order_of_points(value, np.nan)
 

@@ -1,44 +1,78 @@
-"""The hot loops: one source, compiled by numba where it is installed, or run as plain Python.
+"""The hot loops: one source that runs as plain Python or compiled by numba, and the choice between both.
 
-Loading numba takes some tenths of a second, in which plain Python does many a small job.
-Whether it pays cannot be known before the last job; who rents skis until the rents have
-reached the price, and then buys, never pays more than twice what was necessary.
+Loading numba takes some tenths of a second, in which plain Python finishes many small
+jobs.  Whether loading is worth its time cannot be known before the last job.  The choice
+therefore follows the *ski-rental rule*: rent (run plain Python) until the rents add up to
+the price, then buy (load numba); whatever comes, that never costs more than twice what
+was necessary.
 """
 
 import os
-import sys
-from importlib import import_module
+from functools import cache
+from math import inf
 
-BUDGET = 300_000  # steps, about a microsecond of plain Python each, that take as long as loading numba
-_spent = 0  # steps asked for in this process
+from ..checks import choice
+from ..errors import missing_extra
+from .backend import Compiled, Plain
 
-
-class _Kernels:
-    """The modules of a package, each loaded when it is first asked for."""
-
-    def __init__(self, package):
-        self._package = package
-
-    def __getattr__(self, name):
-        if name.startswith("_"):  # tools look for such names
-            raise AttributeError(name)
-        module = import_module(f"{self._package}.{name}")
-        setattr(self, name, module)
-        return module
+BACKENDS = ("auto", "numba", "python")
+PRICE = 300_000  # time to load numba, in steps of plain Python of about a microsecond
+ANY = inf  # steps of a job that is worth loading numba in any case
+_PLAIN = Plain()
+_rent = 0.0  # steps that jobs of this process have asked for
 
 
-COMPILED = _Kernels("meshlib.kernels")  # by numba, unless it is missing or not wanted
-INTERPRETED = _Kernels("meshlib.kernels.interpreted")
+def for_work(steps: float) -> Plain:
+    """The kernels for a job: plain ones until it is worth loading numba, then compiled ones.
 
+    This is the only place where that is decided.  The environment variable
+    ``MESHLIB_BACKEND`` overrides the rule: ``python`` and ``numba`` stand for one of both,
+    ``auto``, the default, for the rule, where numba is installed.
 
-def for_work(steps):
-    """The kernels for a job of so many steps: interpreted ones until it pays to load the compiled.
+    The choice depends on what this process has done before; results do not depend on the
+    choice.  Data in the form of one backend must be given to its own kernels.
 
-    The choice depends on what this process has done before, and no result on the choice.
-    Whoever holds data in the form of one ``backend`` must stay with its kernels.
+    Parameters
+    ----------
+    steps : float
+        Size of the job, in steps of plain Python of about a microsecond.
+
+    Raises
+    ------
+    MeshError
+        If ``MESHLIB_BACKEND`` is something else.
+    ImportError
+        If it is ``numba``, and numba is not installed.
+
+    Examples
+    --------
+    >>> kernels = for_work(10)
+    >>> kernels.lop.after(2)
+    0
     """
-    global _spent
-    _spent += steps
-    loaded = "meshlib.kernels.backend" in sys.modules
-    asked = os.environ.get("MESHLIB_BACKEND", "auto")
-    return INTERPRETED if asked == "auto" and not loaded and _spent <= BUDGET else COMPILED
+    global _rent
+    wanted = choice(os.environ.get("MESHLIB_BACKEND", "auto"), BACKENDS, "MESHLIB_BACKEND")
+    _rent += steps
+    is_bought = _compiled.cache_info().currsize > 0
+    if wanted == "python" or (wanted == "auto" and not is_bought and _rent <= PRICE):
+        return _PLAIN
+    found = _compiled()
+    if found is None and wanted == "numba":
+        raise missing_extra("numba", "fast")
+    return found or _PLAIN
+
+
+def compiled_for_work(steps: float) -> Plain | None:
+    """The compiled kernels, if `for_work` chooses them: for jobs that array operations do as well."""
+    found = for_work(steps)
+    return found if found.is_compiled else None
+
+
+@cache
+def _compiled() -> Compiled | None:
+    """The compiled kernels, if numba is installed."""
+    try:
+        import numba
+    except ImportError:
+        return None
+    return Compiled(numba)

@@ -1,87 +1,146 @@
-"""The one switch between numba and plain Python.
+"""The two forms of the kernels: plain Python functions on lists, or compiled by numba on arrays.
 
-The environment variable ``MESHLIB_BACKEND`` chooses: ``numba``, ``python``, or
-``auto`` (numba where it is installed, once there is enough to do, see `for_work`).
-Kernels are written once, with flat arrays and scalars: numba compiles them for NumPy
-arrays, plain Python runs them on lists, which it indexes several times faster than arrays.
+Kernels are written once, as plain functions of flat arrays and numbers, and that is the
+plain form.  The compiled form of a function is the function itself, with the kernels that
+it calls replaced by their compiled forms, handed to numba: nothing is imported twice, and
+whatever reads source (an editor, a type checker, a coverage tool, a freezer) sees the code
+that runs.
 """
 
-import os
+import sys
+from collections.abc import Callable
+from threading import RLock
+from types import FunctionType, ModuleType
+from typing import Any
 
-from meshlib.checks import choice
-from meshlib.errors import missing_extra
+from numpy.typing import NDArray
 
-BACKENDS = ("auto", "numba", "python")
-COMPILING = "meshlib.kernels"  # the package; its twin is `meshlib.kernels.interpreted`
+from . import colours, costs, element_shapes, half_edges, location, lop, raster, schedules, springs
+from .marks import INLINING
 
-
-def _chosen():
-    if __package__ != COMPILING:
-        return "python", None
-    wanted = choice(os.environ.get("MESHLIB_BACKEND", "auto"), BACKENDS, "MESHLIB_BACKEND")
-    if wanted == "python":
-        return "python", None
-    try:
-        import numba
-    except ImportError:
-        if wanted == "numba":
-            raise missing_extra("numba", "fast") from None
-        return "python", None
-    return "numba", numba
+MODULES = colours, costs, element_shapes, half_edges, location, lop, raster, schedules, springs
 
 
-def _lean(numba):
-    """Options of the compiler: no kernel allocates, so counting references would only halve the speed."""
-    known = hasattr(numba.core.options.DefaultOptions, "_nrt")  # numba does not promise that it stays
-    return {"cache": True, "error_model": "numpy", **({"_nrt": False} if known else {})}
+class Plain:
+    """Kernels as plain Python functions, on lists, which Python indexes several times faster than arrays.
 
+    Attributes
+    ----------
+    name : {"python", "numba"}
+    colours, costs, element_shapes, half_edges, location, lop, raster, schedules, springs
+        The modules of kernels in this form.
+    """
 
-NAME, _numba = _chosen()
-_OPTIONS = _lean(_numba) if _numba else {}
+    name, is_compiled = "python", False
+    colours: Any
+    costs: Any
+    element_shapes: Any
+    half_edges: Any
+    location: Any
+    lop: Any
+    raster: Any
+    schedules: Any
+    springs: Any
 
+    def __init__(self) -> None:
+        for module in MODULES:
+            setattr(self, module.__name__.rpartition(".")[2], self._form(module))
 
-def compiled(function):
-    """The function compiled by numba, or as it is."""
-    return _numba.njit(**_OPTIONS)(function) if _numba else function
+    def _form(self, module: ModuleType) -> Any:
+        return module
 
-
-def inlined(function):
-    """The same, copied into its callers: a call that hands over many arrays is dear."""
-    return _numba.njit(**_OPTIONS, inline="always")(function) if _numba else function
-
-
-def inner(function):
-    """A user's function, for another that is compiled to call it."""
-    if not _numba or hasattr(function, "py_func"):  # it is compiled already
-        return function
-    return _numba.njit(error_model="numpy")(function)
-
-
-def callable_from_kernels(function, n_numbers):
-    """A function of so many numbers that a kernel can be handed, or None if numba refuses it."""
-    if not _numba:
-        return function
-    number = _numba.float64
-    try:
-        return _numba.cfunc(number(*[number] * n_numbers), error_model="numpy")(function)
-    except _numba.core.errors.NumbaError:
-        return None
-
-
-def readable(array):
-    """A flat form that a kernel only reads: the array itself for numba, a list for plain Python."""
-    if not _numba:
+    def readable(self, array: NDArray[Any]) -> Any:
+        """A flat form that kernels only read."""
         return array.ravel().tolist()
-    found = array.ravel().view()
-    found.flags.writeable = False  # so that kernels are compiled for one kind of array
-    return found
+
+    def flat(self, array: NDArray[Any]) -> Any:
+        """A private, flat copy that kernels change."""
+        return array.ravel().tolist()
+
+    def writable(self, array: NDArray[Any]) -> Any:
+        """A flat array that nobody else holds, in a form that kernels change."""
+        return array.tolist()
+
+    def inner(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """A user's function in a form that another one can call."""
+        return function
+
+    def pointer(self, function: Callable[..., Any]) -> Any:
+        """A function of four points in a form that kernels can be handed, or None if it has none."""
+        return function
 
 
-def flat(array):
-    """A private, flat working copy: an array for numba, a list for plain Python."""
-    return array.ravel().copy() if _numba else array.ravel().tolist()
+class Compiled(Plain):
+    """Kernels compiled by numba, on arrays."""
+
+    name, is_compiled = "numba", True
+
+    def __init__(self, numba: Any) -> None:
+        self._numba, self._lock = numba, RLock()
+        self._names: dict[str, dict[str, Any]] = {}
+        self._done: dict[FunctionType, Any] = {}
+        self._options = {"cache": True, "error_model": "numpy"}
+        if hasattr(numba.core.options.DefaultOptions, "_nrt"):  # numba does not promise that it stays
+            self._options["_nrt"] = False  # no kernel allocates; counting references would halve the speed
+        super().__init__()
+
+    def _form(self, module: ModuleType) -> Any:
+        return _CompiledModule(module, self.compiled)
+
+    def compiled(self, value: Any) -> Any:
+        """A kernel compiled, together with the kernels that it calls; anything else as it is."""
+        if not isinstance(value, FunctionType) or value not in INLINING:
+            return value
+        with self._lock:
+            if value not in self._done:
+                self._done[value] = self._twin(value)
+            return self._done[value]
+
+    def _twin(self, kernel: FunctionType) -> Any:
+        """The same code with other global names, for numba to compile at the first call."""
+        twin = FunctionType(kernel.__code__, self._names_in(kernel.__module__), kernel.__name__)
+        twin.__module__, twin.__qualname__ = kernel.__module__, kernel.__qualname__
+        return self._numba.njit(**self._options, inline=INLINING[kernel])(twin)
+
+    def _names_in(self, module: str) -> dict[str, Any]:
+        """The global names of a module, with its kernels compiled."""
+        if module not in self._names:
+            names = self._names[module] = dict(vars(sys.modules[module]))
+            names.update({name: self.compiled(value) for name, value in names.items()})
+        return self._names[module]
+
+    def readable(self, array: NDArray[Any]) -> Any:
+        found = array.ravel().view()
+        found.flags.writeable = False  # so that kernels are compiled for one kind of array
+        return found
+
+    def flat(self, array: NDArray[Any]) -> Any:
+        return array.ravel().copy()
+
+    def writable(self, array: NDArray[Any]) -> Any:
+        return array
+
+    def inner(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        if hasattr(function, "py_func"):  # it is compiled already
+            return function
+        return self._numba.njit(error_model="numpy")(function)
+
+    def pointer(self, function: Callable[..., Any]) -> Any:
+        number = self._numba.float64
+        point = self._numba.types.UniTuple(number, 3)
+        try:
+            return self._numba.cfunc(number(point, point, point, point), error_model="numpy")(function)
+        except self._numba.core.errors.NumbaError:
+            return None
 
 
-def writable(array):
-    """A flat array that a kernel writes into, itself and no copy, or a list for plain Python."""
-    return array if _numba else array.tolist()
+class _CompiledModule:
+    """A module whose kernels are compiled, each when it is first asked for."""
+
+    def __init__(self, module: ModuleType, compiled: Callable[[Any], Any]) -> None:
+        self._module, self._compiled = module, compiled
+
+    def __getattr__(self, name: str) -> Any:
+        found = self._compiled(getattr(self._module, name))
+        setattr(self, name, found)
+        return found

@@ -1,12 +1,13 @@
 """Colours for nodes, so that joined ones differ."""
 
-from .backend import compiled
+from .groups import Ints
+from .marks import kernel
 
 MOST = 62  # colours that fit into the bits of a number
 
 
-@compiled
-def first_free(starts, neighbours, colour):
+@kernel
+def first_free(starts: Ints, neighbours: Ints, colour: Ints) -> None:
     """Give each node in turn the first colour that no neighbour has; all are -1 before.
 
     Node n is joined to neighbours[starts[n]], ..., neighbours[starts[n + 1] - 1].

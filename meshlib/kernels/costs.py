@@ -9,15 +9,17 @@ gradient and doubled area, stands at 3 t of another: what is needed together lie
 
 from math import atan2, inf, sqrt
 
-from .backend import compiled, inlined
 from .codes import ABN, DFP, DLP, JND, SMALLEST_ANGLE, SQUARES, SUM
+from .element_shapes import gradient
+from .groups import Corners, Face, Five, Floats, Point, Quad, Rules, State, UserCost, Vector
+from .marks import inlined, kernel
 
 FLAT = 1e-12  # relative area below which a quadrilateral is not strictly convex
 EQUILATERAL = 1.0471975511965976  # pi / 3
 
 
-@compiled
-def from_smallest(a, b, c):
+@kernel
+def from_smallest(a: int, b: int, c: int) -> Corners:
     """The element turned so that its smallest node number comes first.
 
     What is computed from it then depends on the element alone, to the last bit, and
@@ -30,136 +32,133 @@ def from_smallest(a, b, c):
     return a, b, c
 
 
-@compiled
-def sides(point, corners):
-    """What leads along x and y from the first corner of an element to the second and to the third."""
+@kernel
+def node(point: Floats, n: int) -> Point:
+    """Coordinates and value of a node."""
+    return point[3 * n], point[3 * n + 1], point[3 * n + 2]
+
+
+@kernel
+def sides(point: Floats, corners: Corners) -> tuple[Vector, Vector]:
+    """The vectors from the first corner of an element to the second and to the third."""
     a, b, c = 3 * corners[0], 3 * corners[1], 3 * corners[2]
-    return point[b] - point[a], point[b + 1] - point[a + 1], point[c] - point[a], point[c + 1] - point[a + 1]
+    x, y = point[a], point[a + 1]
+    return (point[b] - x, point[b + 1] - y), (point[c] - x, point[c + 1] - y)
 
 
-@compiled
-def turn(point, corners):
+@kernel
+def turn(point: Floats, corners: Corners) -> float:
     """Twice the signed area of an element, or 0 if it is within rounding of flat."""
-    bx, by, cx, cy = sides(point, corners)
-    left, right = bx * cy, cx * by
+    u, v = sides(point, corners)
+    left, right = u[0] * v[1], v[0] * u[1]
     area = left - right
     return area if abs(area) > FLAT * (abs(left) + abs(right)) else 0.0
 
 
-@compiled
-def is_convex(point, a, b, c, d):
+@kernel
+def is_convex(point: Floats, quad: Quad) -> bool:
     """Whether c-d crosses a-b strictly inside, but for rounding: if not, an element would be flat."""
-    ax, ay, dx, dy = sides(point, (c, a, d))
-    bx, by, dx, dy = sides(point, (c, b, d))
-    return ax * dy - ay * dx > 0 and bx * dy - by * dx < 0
+    a, b, c, d = quad
+    u, v = sides(point, (c, a, d))
+    w, _ = sides(point, (c, b, d))
+    return u[0] * v[1] - u[1] * v[0] > 0 and w[0] * v[1] - w[1] * v[0] < 0
 
 
-@compiled
-def plane(point, corners, area):
-    """Gradient of the plane over an element, by differences from its first node."""
-    bx, by, cx, cy = sides(point, corners)
-    a, b, c = corners
-    bu, cu = point[3 * b + 2] - point[3 * a + 2], point[3 * c + 2] - point[3 * a + 2]
-    return (bu * cy - cu * by) / area, (bx * cu - cx * bu) / area
+@kernel
+def face_of(point: Floats, corners: Corners, area: float) -> Face:
+    """Gradient of the plane over an element, by differences from its first node, and its doubled area."""
+    u, v = sides(point, corners)
+    value = point[3 * corners[0] + 2]
+    g = gradient(u, v, point[3 * corners[1] + 2] - value, point[3 * corners[2] + 2] - value, area)
+    return g[0], g[1], area
 
 
-@compiled
-def edge_cost(code, g, A, h, B, length):
-    """Cost of an edge between planes of gradient g and h over areas A/2 and B/2.
+@kernel
+def edge_cost(code: int, p: Face, q: Face, length: float) -> float:
+    """Cost of an edge between two faces.
 
-    The jump is parallel to the edge's normal, so |g - h| is the JND; it is also the
-    rate at which one plane misses the other's opposite node, at the distance area
-    over length.
+    The jump of the gradient is parallel to the edge's normal, so its size is the JND; it
+    is also the rate at which one plane misses the other's opposite node, at the distance
+    area over length.
     """
-    dx, dy = g[0] - h[0], g[1] - h[1]
+    dx, dy = p[0] - q[0], p[1] - q[1]
     jump = sqrt(dx * dx + dy * dy)
     if code == JND:
         return jump
     if code == ABN:
-        skew = g[0] * h[1] - g[1] * h[0]
-        return atan2(sqrt(dx * dx + dy * dy + skew * skew), 1 + g[0] * h[0] + g[1] * h[1])
-    over, under = jump * B / length, jump * A / length
+        skew = p[0] * q[1] - p[1] * q[0]
+        return atan2(sqrt(dx * dx + dy * dy + skew * skew), 1 + p[0] * q[0] + p[1] * q[1])
+    over, under = jump * q[2] / length, jump * p[2] / length
     if code == DFP:
-        over /= sqrt(1 + g[0] * g[0] + g[1] * g[1])
-        under /= sqrt(1 + h[0] * h[0] + h[1] * h[1])
+        over /= sqrt(1 + p[0] * p[0] + p[1] * p[1])
+        under /= sqrt(1 + q[0] * q[0] + q[1] * q[1])
     return sqrt(over * over + under * under)
 
 
-@compiled
-def distance(point, a, b):
+@kernel
+def distance(point: Floats, a: int, b: int) -> float:
     """Length of the edge a-b."""
     return sqrt((point[3 * a] - point[3 * b]) ** 2 + (point[3 * a + 1] - point[3 * b + 1]) ** 2)
 
 
-@compiled
-def own_cost(given, point, a, b, c, d):
-    """What a function of one's own returns for four points."""
-    a, b, c, d = 3 * a, 3 * b, 3 * c, 3 * d
-    return given(
-        point[a],
-        point[a + 1],
-        point[a + 2],
-        point[b],
-        point[b + 1],
-        point[b + 2],
-        point[c],
-        point[c + 1],
-        point[c + 2],
-        point[d],
-        point[d + 1],
-        point[d + 2],
-    )
+@kernel
+def user_cost(given: UserCost, point: Floats, quad: Quad) -> float:
+    """What a user-defined function returns for four points."""
+    a, b, c, d = quad
+    return given(node(point, a), node(point, b), node(point, c), node(point, d))
 
 
-@compiled
-def own_edge_cost(given, point, p, q, left, right):
-    """Cost of the edge p-q by a function of one's own, which sees it from its smaller node."""
-    if p > q:
-        p, q, left, right = q, p, right, left
-    return own_cost(given, point, p, q, left, right)
+@kernel
+def user_edge_cost(given: UserCost, point: Floats, quad: Quad) -> float:
+    """User-defined cost of the edge p-q between the nodes left and right, as seen from its smaller node."""
+    p, q, left, right = quad
+    return user_cost(given, point, (q, p, right, left) if p > q else quad)
 
 
 @inlined
-def side_cost(code, given, point, inner, g, A, j, a, b, element, face):
-    """Cost of the edge a-b, from the element on its left and the half-edge j beyond; 0 on the boundary.
+def side_cost(given: UserCost | None, code: int, state: State, corners: Corners, own: Face, j: int) -> float:
+    """Cost of the edge a-b of the element (a, b, c) with this face, and the half-edge j beyond.
 
-    The element is (a, b, inner), of gradient g and area A/2.
+    It is 0 on the boundary, where j is negative.
     """
     if j < 0:
         return 0.0
-    if given is not None:
-        return own_edge_cost(given, point, a, b, inner, element[j])
-    beyond, length = 3 * (j // 3), distance(point, a, b) if code >= DLP else 1.0
-    return edge_cost(code, g, A, (face[beyond], face[beyond + 1]), face[beyond + 2], length)
-
-
-@compiled
-def corner(point, a, b, c):
-    """The angle at a between b and c."""
-    ux, uy, vx, vy = sides(point, (a, b, c))
-    return atan2(abs(ux * vy - uy * vx), ux * vx + uy * vy)
-
-
-@compiled
-def element_cost(code, given, point, corners):
-    """How far the smallest or largest angle of an element is from 60 degrees, or a cost of one's own."""
     a, b, c = corners
     if given is not None:
-        return own_cost(given, point, a, b, c, a)
+        return user_edge_cost(given, state.point, (a, b, c, state.element[j]))
+    length = distance(state.point, a, b) if code >= DLP else 1.0
+    return edge_cost(code, own, node(state.face, j // 3), length)
+
+
+@kernel
+def corner(point: Floats, a: int, b: int, c: int) -> float:
+    """The angle at a between b and c."""
+    u, v = sides(point, (a, b, c))
+    return atan2(abs(u[0] * v[1] - u[1] * v[0]), u[0] * v[0] + u[1] * v[1])
+
+
+@kernel
+def element_cost(given: UserCost | None, code: int, point: Floats, corners: Corners) -> float:
+    """User-defined cost of an element, or how far its smallest or largest angle is from 60 degrees."""
+    a, b, c = corners
+    if given is not None:
+        return user_cost(given, point, (a, b, c, a))
     p, q, r = corner(point, a, b, c), corner(point, b, c, a), corner(point, c, a, b)
     excess = EQUILATERAL - min(p, q, r) if code == SMALLEST_ANGLE else max(p, q, r) - EQUILATERAL
     return max(excess, 0.0)  # not below 0 by rounding
 
 
-@compiled
-def are_costs(p, q, r, s, t):
+@kernel
+def are_costs(costs: Five) -> bool:
     """Whether all are finite and not negative."""
+    p, q, r, s, t = costs
     return 0 <= p < inf and 0 <= q < inf and 0 <= r < inf and 0 <= s < inf and 0 <= t < inf
 
 
-@compiled
-def combined(norm, p, q, r, s, t):
+@kernel
+def combined(norm: int, costs: Five) -> float:
     """What the norm compares: the sum, the sum of squares, or the maximum."""
+    p, q, r, s, t = costs
     if norm == SUM:
         return p + q + r + s + t
     if norm == SQUARES:
@@ -167,29 +166,36 @@ def combined(norm, p, q, r, s, t):
     return max(p, q, r, s, t)
 
 
-@compiled
-def is_below(norm, new, old, relative, absolute):
+@kernel
+def is_below(new: float, old: float, rules: Rules) -> bool:
     """Whether a local cost is below another by more than the tolerance, see `norms.is_below`.
 
     With a negative absolute part it may also rise, by less than that, in what is summed.
     """
     if new >= old:
-        return new - old < -absolute  # mostly false, and without a root
-    if norm == SQUARES:
+        return new - old < -rules.absolute  # mostly false, and without a root
+    if rules.norm == SQUARES:
         new, old = sqrt(new), sqrt(old)
-    return new < old * (1 - relative) - absolute
+    return new < old * (1 - rules.relative) - rules.absolute
 
 
-@compiled
-def too_sharp(point, corners, min_angle):
+@kernel
+def too_sharp(point: Floats, corners: Corners, min_angle: float) -> bool:
     """Whether an element has an angle below the limit (section 6.1)."""
     a, b, c = corners
     return min(corner(point, a, b, c), corner(point, b, c, a), corner(point, c, a, b)) < min_angle
 
 
-@compiled
-def refused(point, corners, area, min_angle, min_area):
+@kernel
+def refused(point: Floats, corners: Corners, area: float, rules: Rules) -> bool:
     """Whether an element would be flat or break a limit of section 6.1."""
-    if area <= 0 or area < min_area:
+    if area <= 0 or area < rules.min_area:
         return True
-    return min_angle > 0 and too_sharp(point, corners, min_angle)
+    return rules.min_angle > 0 and too_sharp(point, corners, rules.min_angle)
+
+
+@kernel
+def evaluated(given: UserCost, point: Floats, costs: Floats) -> None:
+    """Set the user-defined cost of each four points."""
+    for n in range(len(costs)):
+        costs[n] = user_cost(given, point, (4 * n, 4 * n + 1, 4 * n + 2, 4 * n + 3))

@@ -2,43 +2,52 @@
 
 from meshlib.geometry.predicates import FLAT, ROUNDOFF, ULPS
 
-from .backend import compiled
+from .groups import Corners, Floats, Vector
+from .marks import kernel
 
-INSIDE = 1e-12  # barycentric coordinates this far below 0 still count as on the boundary
-MOVED = ULPS * ROUNDOFF
-CLEARLY = 2.0  # times the bound, beyond which its own rounding does not matter
+INSIDE = 1e-12  # how far below 0 a barycentric coordinate on the boundary may be
+MOVED = ULPS * ROUNDOFF  # error of an area, as a fraction of largest coordinate times longest side
+CLEARLY = 2.0  # multiple of the bound beyond which the rounding of the bound does not matter
 
 
-@compiled
-def is_flat(node, a, b, c, unit):
-    """`predicates.nearly_flat` of one element; ``unit`` is the largest coordinate of all."""
-    ux, uy = node[2 * b] - node[2 * a], node[2 * b + 1] - node[2 * a + 1]
-    vx, vy = node[2 * c] - node[2 * a], node[2 * c + 1] - node[2 * a + 1]
-    left, right = ux * vy, uy * vx
-    longest = max(abs(ux), abs(uy), abs(vx), abs(vy))
+@kernel
+def corner(node: Floats, n: int) -> Vector:
+    """Coordinates of a node."""
+    return node[2 * n], node[2 * n + 1]
+
+
+@kernel
+def minus(p: Vector, q: Vector) -> Vector:
+    """The vector from q to p."""
+    return p[0] - q[0], p[1] - q[1]
+
+
+@kernel
+def is_flat(node: Floats, corners: Corners, unit: float) -> bool:
+    """`predicates.nearly_flat` of one element; ``unit`` is the largest coordinate of the mesh."""
+    a, b, c = corner(node, corners[0]), corner(node, corners[1]), corner(node, corners[2])
+    u, v = minus(b, a), minus(c, a)
+    left, right = u[0] * v[1], u[1] * v[0]
+    longest = max(abs(u[0]), abs(u[1]), abs(v[0]), abs(v[1]))
     bound = FLAT * (abs(left) + abs(right)) + MOVED * unit * longest
-    return not left - right > CLEARLY * bound and is_flat_in_units(
-        node[2 * a] / unit,
-        node[2 * a + 1] / unit,
-        node[2 * b] / unit,
-        node[2 * b + 1] / unit,
-        node[2 * c] / unit,
-        node[2 * c + 1] / unit,
+    if left - right > CLEARLY * bound:
+        return False
+    return is_flat_in_units(
+        (a[0] / unit, a[1] / unit), (b[0] / unit, b[1] / unit), (c[0] / unit, c[1] / unit)
     )
 
 
-@compiled
-def is_flat_in_units(ax, ay, bx, by, cx, cy):
-    """The same for coordinates of up to 1, as products of tiny ones underflow."""
-    ux, uy, vx, vy = bx - ax, by - ay, cx - ax, cy - ay
-    left, right = ux * vy, uy * vx
-    longest = max(abs(ux), abs(uy), abs(vx), abs(vy))
-    moved = MOVED * max(abs(ax), abs(ay), abs(bx), abs(by), abs(cx), abs(cy)) * longest
+@kernel
+def is_flat_in_units(a: Vector, b: Vector, c: Vector) -> bool:
+    """`is_flat` for coordinates of up to 1, as products of tiny coordinates underflow."""
+    u, v = minus(b, a), minus(c, a)
+    left, right = u[0] * v[1], u[1] * v[0]
+    longest = max(abs(u[0]), abs(u[1]), abs(v[0]), abs(v[1]))
+    moved = MOVED * max(abs(a[0]), abs(a[1]), abs(b[0]), abs(b[1]), abs(c[0]), abs(c[1])) * longest
     return left - right <= FLAT * (abs(left) + abs(right)) + moved
 
 
-@compiled
-def plane(ux, uy, vx, vy, du, dv):
-    """Gradient of the plane that grows by du along u and by dv along v."""
-    twice_area = ux * vy - uy * vx
-    return (du * vy - dv * uy) / twice_area, (dv * ux - du * vx) / twice_area
+@kernel
+def gradient(u: Vector, v: Vector, du: float, dv: float, twice_area: float) -> Vector:
+    """Gradient of the plane that rises by du along u and by dv along v; of many planes, for arrays."""
+    return (du * v[1] - dv * u[1]) / twice_area, (dv * u[0] - du * v[0]) / twice_area

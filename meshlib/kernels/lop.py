@@ -13,9 +13,8 @@ the same side seen from the neighbour, or -1; ``slot[h]`` is the number of its e
             d                    d
 """
 
-from math import nan
+from math import inf, nan
 
-from .backend import compiled, inlined
 from .codes import DLP, INVALID, REFUSED, SMALLEST_ANGLE, SWAPPED, TRIED
 from .costs import (
     are_costs,
@@ -23,193 +22,198 @@ from .costs import (
     distance,
     edge_cost,
     element_cost,
+    face_of,
     from_smallest,
     is_below,
     is_convex,
-    own_edge_cost,
-    plane,
+    node,
     refused,
     side_cost,
     turn,
+    user_edge_cost,
 )
+from .groups import Corners, Face, Five, Floats, Ints, Log, Quad, Rules, State, UserCost
+from .marks import inlined, kernel
+
+NO_COSTS = (0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-@compiled
-def after(h):
+@kernel
+def after(h: int) -> int:
     """The next half-edge around the same element."""
     return h + 1 if h % 3 < 2 else h - 2
 
 
-@compiled
-def before(h):
+@kernel
+def before(h: int) -> int:
     """The previous half-edge around the same element."""
     return h - 1 if h % 3 else h + 2
 
 
-@compiled
-def outer(h, j, twin):
-    """The half-edges beyond b-c, c-a, a-d, d-b, or -1."""
-    return twin[after(h)], twin[before(h)], twin[after(j)], twin[before(j)]
+@kernel
+def around(h: int, j: int, of_half_edge: Ints) -> tuple[int, int, int, int]:
+    """What an array has for the half-edges b-c, c-a of t and a-d, d-b of s."""
+    return of_half_edge[after(h)], of_half_edge[before(h)], of_half_edge[after(j)], of_half_edge[before(j)]
 
 
-@compiled
-def link(h, j, twin, slot, half, edge):
+@kernel
+def link(h: int, j: int, state: State, edge: int) -> None:
     """Make h and j (or the boundary, -1) the two sides of an edge."""
-    twin[h] = j
-    slot[h] = edge
-    half[edge] = h
+    state.twin[h] = j
+    state.slot[h] = edge
+    state.half[edge] = h
     if j >= 0:
-        twin[j] = h
+        state.twin[j] = h
 
 
-@compiled
-def flip(h, j, c, d, element, twin, slot, half):
+@kernel
+def flip(h: int, j: int, state: State) -> None:
     """Replace the diagonal a-b by c-d (see the drawing above); the edge keeps its slot."""
+    element, twin, slot = state.element, state.twin, state.slot
     t1, s1 = after(h), after(j)
     beyond_bc, slot_bc = twin[t1], slot[t1]
     beyond_ad, slot_ad = twin[s1], slot[s1]
     diagonal = slot[h]
-    element[before(h)] = d
-    element[before(j)] = c
-    link(h, beyond_ad, twin, slot, half, slot_ad)
-    link(j, beyond_bc, twin, slot, half, slot_bc)
-    link(t1, s1, twin, slot, half, diagonal)
+    element[before(h)], element[before(j)] = element[j], element[h]
+    link(h, beyond_ad, state, slot_ad)
+    link(j, beyond_bc, state, slot_bc)
+    link(t1, s1, state, diagonal)
     slot[s1] = diagonal
 
 
-@compiled
-def element_costs(code, given, norm, point, a, b, c, d, cad, dbc):
+@kernel
+def set_face(face: Floats, t: int, found: Face) -> None:
+    """Gradient and doubled area of an element."""
+    face[3 * t], face[3 * t + 1], face[3 * t + 2] = found
+
+
+@kernel
+def first_costs(given: UserCost | None, code: int, state: State) -> None:
+    """Set the cost of every edge of the start mesh."""
+    element, half = state.element, state.half
+    for e in range(len(half)):
+        h = half[e]
+        corners = element[after(h)], element[before(h)], element[h]
+        state.cost[e] = side_cost(given, code, state, corners, node(state.face, h // 3), state.twin[h])
+
+
+@inlined
+def inspect(e: int, given: UserCost | None, rules: Rules, state: State, log: Log, row: int) -> int:
+    """Swap an edge if it is not locally optimal: REFUSED, TRIED or SWAPPED; or INVALID.
+
+    With room in the log a tried swap is recorded there in the given row.
+    """
+    state.settled[e] = REFUSED
+    h = state.half[e]
+    j = state.twin[h]
+    if j < 0:
+        return REFUSED
+    quad = state.element[after(h)], state.element[before(h)], state.element[h], state.element[j]
+    if not is_convex(state.point, quad):
+        return REFUSED
+    a, b, c, d = quad
+    first, second = from_smallest(c, a, d), from_smallest(d, b, c)
+    A, B = turn(state.point, first), turn(state.point, second)
+    if refused(state.point, first, A, rules) or refused(state.point, second, B, rules):
+        return REFUSED
+    state.settled[e] = TRIED
+    faces = face_of(state.point, first, A), face_of(state.point, second, B)
+    return tried(e, quad, (first, second), faces, given, rules, state, log, row)
+
+
+@inlined
+def tried(e, quad, elements, faces, given, rules, state, log, row):
+    """Swap the edge of an admissible quadrilateral if it is not locally optimal; TRIED, SWAPPED or INVALID."""
+    if rules.code >= SMALLEST_ANGLE:
+        old, new, fresh = costs_of_elements(given, rules, state.point, quad, elements)
+    else:
+        old, new, fresh = costs_of_edges(e, quad, faces, given, rules, state, log)
+    if given is not None and not (old >= 0 and are_costs(fresh)):
+        return INVALID
+    accepted = is_below(new, old, rules)
+    if len(log.costs) > 0:
+        record(log, row, e, quad, accepted, (old, new))
+    if not accepted:
+        return TRIED
+    swap(e, faces, fresh, state)
+    return SWAPPED
+
+
+@kernel
+def costs_of_elements(
+    given: UserCost | None, rules: Rules, point: Floats, quad: Quad, new: tuple[Corners, Corners]
+) -> tuple[float, float, Five]:
     """Cost of the elements at a-b and of those at c-d instead; NaN if one is not a cost."""
-    p = element_cost(code, given, point, from_smallest(c, a, b))
-    q = element_cost(code, given, point, from_smallest(d, b, a))
-    r, s = element_cost(code, given, point, cad), element_cost(code, given, point, dbc)
-    if given is not None and not are_costs(p, q, r, s, 0.0):
-        return nan, nan
-    return combined(norm, p, q, 0.0, 0.0, 0.0), combined(norm, r, s, 0.0, 0.0, 0.0)
-
-
-@compiled
-def around(h, j, slot):
-    """The five edges of the quadrilateral: a-b, b-c, c-a, a-d, d-b."""
-    return slot[h], slot[after(h)], slot[before(h)], slot[after(j)], slot[before(j)]
+    a, b, c, d = quad
+    p = element_cost(given, rules.code, point, from_smallest(c, a, b))
+    q = element_cost(given, rules.code, point, from_smallest(d, b, a))
+    r, s = element_cost(given, rules.code, point, new[0]), element_cost(given, rules.code, point, new[1])
+    if given is not None and not are_costs((p, q, r, s, 0.0)):
+        return nan, nan, NO_COSTS
+    return combined(rules.norm, (p, q, 0.0, 0.0, 0.0)), combined(rules.norm, (r, s, 0.0, 0.0, 0.0)), NO_COSTS
 
 
 @inlined
-def known_cost(norm, five, cost):
-    """Local cost of a-b from the costs of its five edges."""
-    e, bc, ca, ad, db = five
-    return combined(norm, cost[e], cost[bc], cost[ca], cost[ad], cost[db])
+def costs_of_edges(e, quad, faces, given, rules, state, log):
+    """Cost of the five edges around a-b, of those around c-d instead, and each of these.
+
+    The new cost is infinite where c-d alone already costs too much.
+    """
+    h = state.half[e]
+    j = state.twin[h]
+    cost, (bc, ca, ad, db) = state.cost, around(h, j, state.slot)
+    old = combined(rules.norm, (cost[e], cost[bc], cost[ca], cost[ad], cost[db]))
+    across = diagonal_cost(given, rules.code, state.point, quad, faces)
+    if given is None and len(log.costs) == 0:
+        least = combined(rules.norm, (across, 0.0, 0.0, 0.0, 0.0))  # whatever the sides cost
+        if not is_below(least, old, rules):
+            return old, inf, NO_COSTS
+    fresh = new_costs(given, rules.code, state, quad, faces, across, around(h, j, state.twin))
+    return old, combined(rules.norm, (across, fresh[2], fresh[3], fresh[4], fresh[1])), fresh
 
 
-@compiled
-def diagonal_cost(code, given, point, a, b, c, d, g, A, k, B):
-    """Cost of c-d between (c, a, d) and (d, b, c), of gradients g, k and areas A/2, B/2."""
+@kernel
+def diagonal_cost(
+    given: UserCost | None, code: int, point: Floats, quad: Quad, faces: tuple[Face, Face]
+) -> float:
+    """Cost of c-d between the new elements (c, a, d) and (d, b, c)."""
+    a, b, c, d = quad
     if given is not None:
-        return own_edge_cost(given, point, c, d, b, a)
-    return edge_cost(code, g, A, k, B, distance(point, c, d) if code >= DLP else 1.0)
+        return user_edge_cost(given, point, (c, d, b, a))
+    return edge_cost(code, faces[0], faces[1], distance(point, c, d) if code >= DLP else 1.0)
 
 
 @inlined
-def new_costs(code, given, point, a, b, c, d, beyond, across, g, A, k, B, element, face):
-    """Costs of c-d, which is ``across``, and of b-c, c-a, a-d, d-b after the swap."""
+def new_costs(given, code, state, quad, faces, across, beyond):
+    """Costs after the swap of c-d, which is ``across``, and of b-c, c-a, a-d, d-b, with half-edges beyond."""
+    a, b, c, d = quad
     bc, ca, ad, db = beyond
     return (
         across,
-        side_cost(code, given, point, d, k, B, bc, b, c, element, face),
-        side_cost(code, given, point, d, g, A, ca, c, a, element, face),
-        side_cost(code, given, point, c, g, A, ad, a, d, element, face),
-        side_cost(code, given, point, c, k, B, db, d, b, element, face),
+        side_cost(given, code, state, (b, c, d), faces[1], bc),
+        side_cost(given, code, state, (c, a, d), faces[0], ca),
+        side_cost(given, code, state, (a, d, c), faces[0], ad),
+        side_cost(given, code, state, (d, b, c), faces[1], db),
     )
 
 
-@compiled
-def first_costs(code, given, point, element, twin, half, face, cost):
-    """Set the cost of every edge of the start mesh."""
-    for e in range(len(half)):
-        h = half[e]
-        t, a, b = 3 * (h // 3), element[after(h)], element[before(h)]
-        cost[e] = side_cost(
-            code, given, point, element[h], (face[t], face[t + 1]), face[t + 2], twin[h], a, b, element, face
-        )
-
-
-@compiled
-def set_face(face, t, g, A):
-    """Gradient and doubled area of an element."""
-    face[3 * t], face[3 * t + 1], face[3 * t + 2] = g[0], g[1], A
-
-
-@compiled
-def record(log, costs, row, e, a, b, c, d, accepted, old, new):
-    """Write a tried swap to the trace: edge, nodes, whether accepted; both costs."""
-    log[6 * row], log[6 * row + 1], log[6 * row + 2] = e, a, b
-    log[6 * row + 3], log[6 * row + 4], log[6 * row + 5] = c, d, accepted
-    costs[2 * row], costs[2 * row + 1] = old, new
-
-
 @inlined
-def inspect(
-    e,
-    code,
-    given,
-    norm,
-    relative,
-    absolute,
-    min_angle,
-    min_area,
-    point,
-    element,
-    twin,
-    slot,
-    half,
-    face,
-    cost,
-    settled,
-    log,
-    costs,
-    row,
-):
-    """Swap an edge if it is not locally optimal: REFUSED, TRIED or SWAPPED; or INVALID.
+def swap(e, faces, fresh, state):
+    """Replace the edge by the other diagonal, with the faces beside it and the costs around it."""
+    h = state.half[e]
+    j = state.twin[h]
+    bc, ca, ad, db = around(h, j, state.slot)
+    flip(h, j, state)
+    set_face(state.face, h // 3, faces[0])
+    set_face(state.face, j // 3, faces[1])
+    cost = state.cost
+    cost[e], cost[bc], cost[ca], cost[ad], cost[db] = fresh
 
-    With room in ``log`` and ``costs`` a tried swap is recorded there in the given row.
-    """
-    settled[e] = REFUSED
-    h = half[e]
-    j = twin[h]
-    if j < 0:
-        return REFUSED
-    a, b, c, d = element[after(h)], element[before(h)], element[h], element[j]
-    if not is_convex(point, a, b, c, d):
-        return REFUSED
-    cad, dbc = from_smallest(c, a, d), from_smallest(d, b, c)
-    A, B = turn(point, cad), turn(point, dbc)
-    if refused(point, cad, A, min_angle, min_area) or refused(point, dbc, B, min_angle, min_area):
-        return REFUSED
-    settled[e] = TRIED
-    traced = len(log) > 0
-    g, k, five = plane(point, cad, A), plane(point, dbc, B), around(h, j, slot)
-    if code >= SMALLEST_ANGLE:
-        fresh = (0.0, 0.0, 0.0, 0.0, 0.0)
-        old, new = element_costs(code, given, norm, point, a, b, c, d, cad, dbc)
-    else:
-        old = known_cost(norm, five, cost)
-        across = diagonal_cost(code, given, point, a, b, c, d, g, A, k, B)
-        least = combined(norm, across, 0.0, 0.0, 0.0, 0.0)  # whatever the sides cost
-        if given is None and not traced and not is_below(norm, least, old, relative, absolute):
-            return TRIED
-        fresh = new_costs(
-            code, given, point, a, b, c, d, outer(h, j, twin), across, g, A, k, B, element, face
-        )
-        new = combined(norm, fresh[0], fresh[2], fresh[3], fresh[4], fresh[1])
-    if given is not None and not (old >= 0 and are_costs(*fresh)):
-        return INVALID
-    accepted = is_below(norm, new, old, relative, absolute)
-    if traced:
-        record(log, costs, row, e, a, b, c, d, accepted, old, new)
-    if not accepted:
-        return TRIED
-    flip(h, j, c, d, element, twin, slot, half)
-    set_face(face, h // 3, g, A)
-    set_face(face, j // 3, k, B)
-    cost[five[0]], cost[five[1]], cost[five[2]], cost[five[3]], cost[five[4]] = fresh
-    return SWAPPED
+
+@kernel
+def record(log: Log, row: int, e: int, quad: Quad, accepted: bool, costs: tuple[float, float]) -> None:
+    """Write a tried swap to the trace: edge, nodes, whether accepted; both costs."""
+    tried = log.tried
+    tried[6 * row], tried[6 * row + 5] = e, accepted
+    tried[6 * row + 1], tried[6 * row + 2], tried[6 * row + 3], tried[6 * row + 4] = quad
+    log.costs[2 * row], log.costs[2 * row + 1] = costs

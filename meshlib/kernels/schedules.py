@@ -6,13 +6,14 @@ tally: the place in the order, how many edges wait in the queue, swaps, sweeps, 
 tried, swaps before the sweep, and the edge of a cost that is not one, or -1.
 """
 
-from .backend import compiled
 from .codes import BEFORE, FAULT, INVALID, PLACE, REFUSED, SWAPPED, SWAPS, SWEEPS, TRIES, UNKNOWN, WAITING
+from .groups import Floats, Ints, Log, Rules, State, UserCost
 from .lop import after, before, inspect
+from .marks import kernel
 
 
-@compiled
-def unsettle(h, element, twin, slot, settled, queue, last, n):
+@kernel
+def unsettle(h: int, state: State, queue: Ints, last: int, n: int) -> int:
     """Mark the edges whose local cost the swap to the edge of half-edge h may have changed.
 
     These are, for the edge c-d with c < d, the sides d-b, b-c, c-a, a-d and the two
@@ -20,6 +21,7 @@ def unsettle(h, element, twin, slot, settled, queue, last, n):
     queue, a ring of n places of which ``last`` is the next free one, if it has any;
     returns how many were.
     """
+    element, twin, slot, settled = state.element, state.twin, state.slot, state.settled
     j, count = twin[h], 0
     if element[after(h)] > element[before(h)]:  # h is to run from c to d
         h, j = j, h
@@ -32,8 +34,8 @@ def unsettle(h, element, twin, slot, settled, queue, last, n):
     return count
 
 
-@compiled
-def wake(e, settled, queue, place, n):
+@kernel
+def wake(e: int, settled: Ints, queue: Ints, place: int, n: int) -> int:
     """Mark one edge, and queue it if it is not waiting there."""
     if settled[e] == UNKNOWN:
         return 0
@@ -43,66 +45,27 @@ def wake(e, settled, queue, place, n):
     return 1
 
 
-@compiled
+@kernel
 def sweep(
-    order,
-    tally,
-    limit,
-    code,
-    given,
-    norm,
-    relative,
-    absolute,
-    min_angle,
-    min_area,
-    point,
-    element,
-    twin,
-    slot,
-    half,
-    face,
-    cost,
-    settled,
-    log,
-    costs,
-):
+    order: Ints, tally: Ints, limit: int, given: UserCost | None, rules: Rules, state: State, log: Log
+) -> None:
     """Inspect the next edges of a sweep, and swap those that are not locally optimal.
 
     An edge around which nothing has changed since it was last inspected is passed
     over, for it would only be kept again.  If what is tried is recorded, no edge is
     passed over, and rows are counted from the first of this call.
     """
-    first, tried, swaps = tally[PLACE], 0, 0
+    first, tried, swaps, settled = tally[PLACE], 0, 0, state.settled
     last = min(first + limit, len(order))
     for place in range(first, last):
         e = order[place]
-        if settled[e] != UNKNOWN and len(log) == 0:
+        if settled[e] != UNKNOWN and len(log.costs) == 0:
             tried += settled[e]
             continue
-        found = inspect(
-            e,
-            code,
-            given,
-            norm,
-            relative,
-            absolute,
-            min_angle,
-            min_area,
-            point,
-            element,
-            twin,
-            slot,
-            half,
-            face,
-            cost,
-            settled,
-            log,
-            costs,
-            tried,
-        )
+        found = inspect(e, given, rules, state, log, tried)
         tried += found != REFUSED
         if found == SWAPPED:
-            unsettle(half[e], element, twin, slot, settled, order, 0, 0)
+            unsettle(state.half[e], state, order, 0, 0)
             settled[e] = UNKNOWN
             swaps += 1
         elif found == INVALID:
@@ -112,8 +75,8 @@ def sweep(
     tally[TRIES] += tried
 
 
-@compiled
-def is_last(tally):
+@kernel
+def is_last(tally: Ints) -> bool:
     """Count a sweep, if it is at its end, and say whether nothing is left to do."""
     if tally[FAULT] >= 0:
         return True
@@ -125,83 +88,24 @@ def is_last(tally):
     return ended
 
 
-@compiled
+@kernel
 def swept(
-    order,
-    tally,
-    limit,
-    code,
-    given,
-    norm,
-    relative,
-    absolute,
-    min_angle,
-    min_area,
-    point,
-    element,
-    twin,
-    slot,
-    half,
-    face,
-    cost,
-    settled,
-    log,
-    costs,
-):
+    order: Ints, tally: Ints, limit: int, given: UserCost | None, rules: Rules, state: State, log: Log
+) -> bool:
     """Sweep until nothing is swapped, or the limit is reached; whether all is done."""
     begin = tally[SWEEPS] * len(order) + tally[PLACE]
     while tally[SWEEPS] * len(order) + tally[PLACE] - begin < limit:
         left = begin + limit - tally[SWEEPS] * len(order) - tally[PLACE]
-        sweep(
-            order,
-            tally,
-            left,
-            code,
-            given,
-            norm,
-            relative,
-            absolute,
-            min_angle,
-            min_area,
-            point,
-            element,
-            twin,
-            slot,
-            half,
-            face,
-            cost,
-            settled,
-            log,
-            costs,
-        )
+        sweep(order, tally, left, given, rules, state, log)
         if is_last(tally):
             return True
     return False
 
 
-@compiled
+@kernel
 def drained(
-    queue,
-    tally,
-    limit,
-    code,
-    given,
-    norm,
-    relative,
-    absolute,
-    min_angle,
-    min_area,
-    point,
-    element,
-    twin,
-    slot,
-    half,
-    face,
-    cost,
-    settled,
-    log,
-    costs,
-):
+    queue: Ints, tally: Ints, limit: int, given: UserCost | None, rules: Rules, state: State, log: Log
+) -> bool:
     """Inspect the first of a queue of edges until it is empty; a swap queues what it may have changed.
 
     The queue holds all edges at first and is overwritten.  Returns whether all is done.
@@ -213,30 +117,10 @@ def drained(
         first, waiting, limit = first + 1, waiting - 1, limit - 1
         if first == n:
             first = 0
-        found = inspect(
-            e,
-            code,
-            given,
-            norm,
-            relative,
-            absolute,
-            min_angle,
-            min_area,
-            point,
-            element,
-            twin,
-            slot,
-            half,
-            face,
-            cost,
-            settled,
-            log,
-            costs,
-            tried,
-        )
+        found = inspect(e, given, rules, state, log, tried)
         tried += found != REFUSED
         if found == SWAPPED:
-            waiting += unsettle(half[e], element, twin, slot, settled, queue, first + waiting, n)
+            waiting += unsettle(state.half[e], state, queue, first + waiting, n)
             swaps += 1
         elif found == INVALID:
             tally[FAULT] = e
@@ -244,56 +128,18 @@ def drained(
     return waiting == 0 or tally[FAULT] >= 0
 
 
-@compiled
+@kernel
 def walked(
-    edges,
-    rises,
-    tally,
-    code,
-    given,
-    norm,
-    relative,
-    absolute,
-    min_angle,
-    min_area,
-    point,
-    element,
-    twin,
-    slot,
-    half,
-    face,
-    cost,
-    settled,
-    log,
-    costs,
-):
+    edges: Ints, rises: Floats, tally: Ints, given: UserCost | None, rules: Rules, state: State, log: Log
+) -> None:
     """Inspect edges one after the other; a swap may raise the sum of costs by less than its rise.
 
     The tolerances are not used.  Rows of what is recorded are numbered like the edges.
     """
     for i in range(len(edges)):
         e = edges[i]
-        found = inspect(
-            e,
-            code,
-            given,
-            norm,
-            0.0,
-            -rises[i],
-            min_angle,
-            min_area,
-            point,
-            element,
-            twin,
-            slot,
-            half,
-            face,
-            cost,
-            settled,
-            log,
-            costs,
-            i,
-        )
+        allowing = Rules(rules.code, rules.norm, 0.0, -rises[i], rules.min_angle, rules.min_area)
+        found = inspect(e, given, allowing, state, log, i)
         if found == SWAPPED:
             tally[SWAPS] += 1
         elif found == INVALID:

@@ -1,37 +1,59 @@
-"""Cost functions of one's own in the form that kernels call: a function of four points.
+"""User-defined cost functions in the form that kernels call: a function of four points.
 
 A point is three numbers x, y, u.  The four are the ends of an edge and the nodes to its
-left and right, or the corners of an element and the first of them once more.
+left and right, or the corners of an element and the first of them once more.  Such a
+function is called so often that it is worth compiling even for a small mesh.
 """
 
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from math import sqrt
+from typing import Any
 
-from .backend import callable_from_kernels, compiled, inner
-from .costs import own_cost
+import numpy as np
 
-KEPT = 128  # functions compiled before
+from .._typing import FloatArray
+from . import ANY, for_work
+from .backend import Plain
+from .groups import Point, UserCost
+
+KEPT = 128  # compiled functions that are kept for the next use
+
+
+def pointer(maker: Callable[[], Callable[..., float]], on: str) -> Any:
+    """The function that ``maker`` returns in the form for kernels, or None if numba cannot compile it."""
+    return _pointer(maker, on, for_work(ANY))
 
 
 @lru_cache(maxsize=KEPT)
-def pointer(maker, on):
-    """The function that ``maker`` returns in the form for kernels, or None if numba cannot compile it."""
-    cost = inner(maker())
-    return callable_from_kernels(cost if on == "edge" else _of_four_points(cost), 12)
+def _pointer(maker: Callable[[], Callable[..., float]], on: str, kernels: Plain) -> Any:
+    cost = kernels.inner(maker())
+    return kernels.pointer(_of_edge(cost) if on == "edge" else _of_element(cost))
 
 
-def _of_four_points(cost):
-    def padded(ax, ay, au, bx, by, bu, cx, cy, cu, _x, _y, _u):
-        return cost(ax, ay, au, bx, by, bu, cx, cy, cu)
+def _of_edge(cost: Callable[..., float]) -> UserCost:
+    def of_points(p: Point, q: Point, left: Point, right: Point) -> float:
+        return cost(*p, *q, *left, *right)
 
-    return padded
+    return of_points
 
 
-def error_of(function, points, weights):
+def _of_element(cost: Callable[..., float]) -> UserCost:
+    def of_points(a: Point, b: Point, c: Point, _: Point) -> float:
+        return cost(*a, *b, *c)
+
+    return of_points
+
+
+def error_of(
+    function: Callable[[float, float], float], points: Sequence[Point], weights: Sequence[float]
+) -> Callable[..., float]:
     """The L2 norm of u - u_h on one element, by quadrature, as a function of its three points."""
-    u = inner(function)
+    u = for_work(ANY).inner(function)
 
-    def error(ax, ay, au, bx, by, bu, cx, cy, cu):
+    def error(
+        ax: float, ay: float, au: float, bx: float, by: float, bu: float, cx: float, cy: float, cu: float
+    ) -> float:
         total = 0.0
         for k in range(len(weights)):
             p, q, r = points[k]
@@ -42,8 +64,9 @@ def error_of(function, points, weights):
     return error
 
 
-@compiled
-def evaluated(given, points, costs):
-    """Set the cost of each four points, which stand in rows of twelve numbers."""
-    for n in range(len(costs)):
-        costs[n] = own_cost(given, points, 4 * n, 4 * n + 1, 4 * n + 2, 4 * n + 3)
+def evaluated(given: Any, points: FloatArray) -> FloatArray:
+    """The cost of each four points, which stand in rows of twelve numbers."""
+    kernels = for_work(ANY)
+    costs = kernels.writable(np.zeros(len(points)))
+    kernels.costs.evaluated(given, kernels.readable(points), costs)
+    return np.asarray(costs)

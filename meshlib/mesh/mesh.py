@@ -154,13 +154,25 @@ class Mesh(Derived):
         return self if getattr(self, "_valid", False) else self.validate()
 
     @classmethod
-    def _trusted(cls, nodes: FloatArray, elements: ArrayLike, green: ArrayLike | None = None) -> "Mesh":
-        """A mesh made by an operation that keeps a valid mesh valid: nothing is checked or copied."""
+    def _trusted(
+        cls,
+        nodes: FloatArray,
+        elements: ArrayLike,
+        green: ArrayLike | None = None,
+        *,
+        connected_as: "Mesh | None" = None,
+    ) -> "Mesh":
+        """A mesh made by an operation that keeps a valid mesh valid: nothing is checked or copied.
+
+        The edges of ``connected_as``, a mesh with these elements on other nodes, are not derived again.
+        """
         mesh = object.__new__(cls)
         mesh._store("nodes", nodes)
         mesh._store("elements", np.asarray(elements, dtype=np.int32))
         mesh._store("green", checks.green_array(green))
         object.__setattr__(mesh, "_valid", True)
+        if connected_as is not None:
+            mesh.__dict__["_edge_table"] = connected_as._edge_table
         return mesh
 
     def plot(self, ax: Any = None, **options: Any) -> Any:

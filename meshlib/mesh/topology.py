@@ -9,21 +9,22 @@ node k + 1 to node k + 2 (counted modulo 3), so the element lies to its left::
        k+1 --> k+2
 """
 
-from types import ModuleType
-
 import numpy as np
 
 from .._typing import AnyMesh, IntArray
 from ..errors import InvalidMeshError
+from ..kernels import compiled_for_work
+from ..kernels.backend import Plain
 
 TAILS, HEADS = [1, 2, 0], [2, 0, 1]  # columns of the nodes k + 1 and k + 2, where half-edge k begins and ends
 MANY = 10_000  # number of elements from which on counting is faster than sorting; the arrays are equal
+HALF_EDGES_IN_A_STEP = 5  # number of half-edges that NumPy sorts in about a microsecond
 
 
 def edge_table(elements: IntArray, n_nodes: int) -> tuple[IntArray, IntArray]:
     """Edges in lexicographic order, and the edge opposite each node of each element."""
-    if len(elements) >= MANY and _kernels_are_compiled():
-        return _edge_table_by_counting(elements, n_nodes)
+    if len(elements) >= MANY and (kernels := compiled_for_work(elements.size / HALF_EDGES_IN_A_STEP)):
+        return _edge_table_by_counting(elements, n_nodes, kernels)
     ends = np.stack([elements[:, TAILS], elements[:, HEADS]]).astype(np.int64)
     keys = ends.min(axis=0) * n_nodes + ends.max(axis=0)
     unique, numbers = np.unique(keys, return_inverse=True)
@@ -31,21 +32,13 @@ def edge_table(elements: IntArray, n_nodes: int) -> tuple[IntArray, IntArray]:
     return edges, numbers.reshape(elements.shape).astype(np.int32)
 
 
-def _kernels_are_compiled() -> bool:
-    from ..kernels import backend
-
-    return backend.NAME == "numba"
-
-
-def _edge_table_by_counting(elements: IntArray, n_nodes: int) -> tuple[IntArray, IntArray]:
+def _edge_table_by_counting(elements: IntArray, n_nodes: int, kernels: Plain) -> tuple[IntArray, IntArray]:
     """Edges, and the edge opposite each node, by a compiled kernel that counts."""
-    from ..kernels import half_edges
-    from ..kernels.backend import readable, writable
-
     size, number = elements.size, np.int32
+    readable, writable = kernels.readable, kernels.writable
     slot, edges = writable(np.empty(size, dtype=number)), writable(np.empty(2 * size, dtype=number))
     rooms = (writable(np.zeros(n, dtype=number)) for n in (n_nodes + 1, size, size))
-    count = half_edges.edge_table(readable(elements), *rooms, slot, edges)
+    count = kernels.half_edges.edge_table(readable(elements), *rooms, slot, edges)
     return (
         np.asarray(edges[: 2 * count], dtype=number).reshape(-1, 2),
         np.asarray(slot, dtype=number).reshape(-1, 3),
@@ -76,17 +69,15 @@ def neighbours(element_edges: IntArray, edge_elements: IntArray) -> IntArray:
     return np.where(pairs[..., 0] == own, pairs[..., 1], pairs[..., 0])
 
 
-def half_edges(
-    element_edges: IntArray, n_edges: int, kernels: ModuleType
-) -> tuple[IntArray, IntArray, IntArray]:
+def half_edges(element_edges: IntArray, n_edges: int, kernels: Plain) -> tuple[IntArray, IntArray, IntArray]:
     """Twin and edge of each half-edge, and one half-edge of each edge.
 
     The twin of a half-edge is the half-edge of the neighbour on this side, or -1.  All three
     arrays are flat and writable, as ``kernels``, compiled or plain, need them.
     """
-    slot, nowhere = kernels.backend.flat(element_edges), kernels.half_edges.NOWHERE
+    slot, nowhere = kernels.flat(element_edges), kernels.half_edges.NOWHERE
     twin, half = (
-        kernels.backend.writable(np.full(n, nowhere, dtype=np.int32)) for n in (element_edges.size, n_edges)
+        kernels.writable(np.full(n, nowhere, dtype=np.int32)) for n in (element_edges.size, n_edges)
     )
     kernels.half_edges.twins(slot, twin, half)
     return twin, slot, half

@@ -172,29 +172,25 @@ class _Patches:
         centres = np.flatnonzero(~mesh.boundary_nodes | rails.any(axis=1))
         likely = min(sweeps, len(centres))  # what one node does takes as long to reach the others
         self._kernels = for_work(STEPS * likely * len(centres))
-        flat = self._kernels.backend.flat
+        flat, springs = self._kernels.flat, self._kernels.springs
         self._mesh, self._place = mesh, flat(mesh.nodes)
         head, self._by_tail, edge_starts = around_nodes(mesh.edges, mesh.n_nodes)
         by_corner, element_starts = grouped(mesh.elements.ravel(), mesh.n_nodes)
         second, third = (mesh.elements[:, turn].ravel().take(by_corner) for turn in (TAILS, HEADS))
-        self._springs = [flat(v) for v in (centres, rails[centres], edge_starts, head)]
-        self._elements = [flat(v) for v in (element_starts, second, third)]
-        self._pull(constants)
-
-    def _pull(self, constants):
-        self._constants = self._kernels.backend.flat(np.tile(constants, 2).take(self._by_tail))
+        pulls = np.tile(constants, 2).take(self._by_tail)
+        self._springs = springs.Springs(*map(flat, (centres, rails[centres], edge_starts, head, pulls)))
+        self._around = springs.Patches(*map(flat, (element_starts, second, third)))
 
     def follow(self, springs):
         """Ask for the constants of the springs anew, on the mesh as it is."""
         moved = Mesh._trusted(self.nodes, self._mesh.elements)
         moved.__dict__["_edge_table"] = self._mesh._edge_table  # which moving does not change
-        self._pull(_spring_constants(moved, springs(moved)))
+        pulls = np.tile(_spring_constants(moved, springs(moved)), 2).take(self._by_tail)
+        self._springs = self._springs._replace(constants=self._kernels.flat(pulls))
 
     def sweep(self, halvings, least):
         """Move every node once; the largest movement, and how many moves were refused."""
-        return self._kernels.springs.sweep(
-            *self._springs, self._constants, *self._elements, halvings, least, self._place
-        )
+        return self._kernels.springs.sweep(self._springs, self._around, halvings, least, self._place)
 
     @property
     def nodes(self):

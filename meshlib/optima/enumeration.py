@@ -14,8 +14,8 @@ import numpy as np
 
 from .. import checks
 from ..errors import InvalidInputError
+from ..kernels.costs import from_smallest
 from ..mesh.topology import canonical
-from ..swapping.plain import from_smallest
 from .empty_triangles import Candidates
 
 MOST_MESHES = 200_000

@@ -59,8 +59,8 @@ def along_curve(mesh):
 def _renamed(kernel, elements, row, number):
     """Elements in other rows, with other numbers for their nodes, by the kernel of that name."""
     kernels = for_work(elements.size)
-    found = kernels.backend.writable(np.empty(elements.size, dtype=np.int32))
-    getattr(kernels.half_edges, kernel)(*map(kernels.backend.readable, (elements, row, number)), found)
+    found = kernels.writable(np.empty(elements.size, dtype=np.int32))
+    getattr(kernels.half_edges, kernel)(*map(kernels.readable, (elements, row, number)), found)
     return np.asarray(found, dtype=np.int32).reshape(-1, 3)
 
 

@@ -12,6 +12,7 @@ from ..criteria.norms import norm_of
 from ..criteria.registry import Criterion
 from ..errors import not_a_cost
 from ..kernels import codes, for_work
+from ..kernels.groups import Log, Rules, State
 from ..mesh.mesh import Mesh
 from ..mesh.topology import from_smallest, half_edges
 
@@ -101,39 +102,31 @@ class Procedure:
         return norm_of(self.criterion.costs(mesh, self.values), self.norm)
 
     def _compiled(self, order, trace, schedule, watch):
-        kernels = for_work(STEPS * len(order))  # a cost of one's own has loaded the compiled
-        state, arguments = self.arguments(kernels)
+        kernels = for_work(STEPS * len(order))  # compiled ones for a user-defined cost, which has loaded them
+        given, rules, state = self.arguments(kernels)
         order, tally = _start(order, kernels)
         if trace and schedule == "sweep":
-            return self._traced(kernels, order, tally, state, arguments)
+            return self._traced(kernels, order, tally, given, rules, state)
         # the trace of a queue may be of any length
-        logs = logs_for(self.run(order, False, schedule).tried if trace else 0, kernels)
+        log = log_for(self.run(order, False, schedule).tried if trace else 0, kernels)
         kernel = {"sweep": kernels.schedules.swept, "queue": kernels.schedules.drained}[schedule]
-        _watched(kernel, watch, order, tally, *arguments, *logs)
-        return self._outcome(state, tally, _rows(0, *logs, tally[codes.TRIES] if trace else 0))
+        _watched(kernel, watch, order, tally, given, rules, state, log)
+        return self._outcome(state, tally, _rows(0, log, tally[codes.TRIES] if trace else 0))
 
     def arguments(self, kernels):
-        """A fresh copy of the state, and all that a kernel wants after order, tally and limit."""
-        points, state = self._prepared(kernels)
-        return state, (
-            self.criterion.code,
-            self.criterion.pointer,
-            NORM_CODES[self.norm],
-            *self.tolerance,
-            self.limits.angle,
-            2 * self.limits.area,
-            points,
-            *state,
-        )
+        """What kernels want after order, tally and limit: a user-defined cost, rules, and a fresh state."""
+        limits = self.limits.angle, 2 * self.limits.area
+        rules = Rules(self.criterion.code, NORM_CODES[self.norm], *self.tolerance, *limits)
+        return self.criterion.pointer, rules, self._prepared(kernels)
 
-    def _traced(self, kernels, order, tally, state, arguments):
-        rows, logs, done = [], logs_for(len(order), kernels), False
+    def _traced(self, kernels, order, tally, *arguments):
+        rows, log, done = [], log_for(len(order), kernels), False
         while not done:
             before = tally[codes.TRIES]
-            kernels.schedules.sweep(order, tally, len(order), *arguments, *logs)
+            kernels.schedules.sweep(order, tally, len(order), *arguments, log)
             done = kernels.schedules.is_last(tally)
-            rows.append(_rows(len(rows) + 1, *logs, tally[codes.TRIES] - before))
-        return self._outcome(state, tally, np.concatenate(rows))
+            rows.append(_rows(len(rows) + 1, log, tally[codes.TRIES] - before))
+        return self._outcome(arguments[-1], tally, np.concatenate(rows))
 
     def _outcome(self, state, tally, trace):
         elements = elements_of(state, tally)
@@ -153,46 +146,49 @@ class Procedure:
         return {}  # what has been prepared, by the backend whose form it has
 
     def _prepared(self, kernels):
-        """The points x, y, u, and the state before the first swap, which is the caller's to change."""
+        """The state before the first swap, which is the caller's to change."""
         if self.once:
             return self._new(kernels)
-        name = kernels.backend.NAME
-        if name not in self._kept:
-            self._kept[name] = self._new(kernels)
-        points, state = self._kept[name]
-        return points, tuple(array.copy() for array in state)
+        if kernels.name not in self._kept:
+            self._kept[kernels.name] = self._new(kernels)
+        point, *changing = self._kept[kernels.name]
+        return State(point, *(array.copy() for array in changing))
 
     def _new(self, kernels):
         """The points, and all that a kernel changes: the mesh, its planes and costs."""
-        mesh, code, writable = self.mesh, self.criterion.code, kernels.backend.writable
-        points = kernels.backend.readable(np.column_stack([mesh.nodes, self.values]))
-        element = kernels.backend.flat(mesh.elements)
+        mesh, code, writable = self.mesh, self.criterion.code, kernels.writable
         twin, slot, half = half_edges(mesh.element_edges, mesh.n_edges, kernels)
-        face = writable(np.empty(3 * mesh.n_elements))
-        cost = writable(np.zeros(mesh.n_edges))
-        settled = writable(np.full(mesh.n_edges, codes.UNKNOWN, dtype=np.int8))
-        kernels.half_edges.faces(element, points, face)
+        state = State(
+            kernels.readable(np.column_stack([mesh.nodes, self.values])),
+            kernels.flat(mesh.elements),
+            twin,
+            slot,
+            half,
+            face=writable(np.empty(3 * mesh.n_elements)),
+            cost=writable(np.zeros(mesh.n_edges)),
+            settled=writable(np.full(mesh.n_edges, codes.UNKNOWN, dtype=np.int8)),
+        )
+        kernels.half_edges.faces(state.element, state.point, state.face)
         if code < codes.SMALLEST_ANGLE:
-            kernels.lop.first_costs(code, self.criterion.pointer, points, element, twin, half, face, cost)
-        return points, (element, twin, slot, half, face, cost, settled)
+            kernels.lop.first_costs(self.criterion.pointer, code, state)
+        return state
 
 
 def _start(order, kernels):
     """Order and tally of a run that has done nothing yet."""
     tally = np.zeros(codes.FAULT + 1, dtype=np.int64)
     tally[[codes.WAITING, codes.FAULT]] = len(order), -1
-    writable = kernels.backend.writable
+    writable = kernels.writable
     return writable(np.array(order, dtype=np.int32)), writable(tally)
 
 
 def elements_of(state, tally):
-    """The elements of a state, or the error of a cost of one's own that is not a cost."""
-    element, half = state[0], state[3]
+    """The elements of a state, or the error of a user-defined cost that is not a cost."""
     if tally[codes.FAULT] >= 0:
-        h = int(half[tally[codes.FAULT]])
-        a, b = sorted(int(element[h - h % 3 + (h + step) % 3]) for step in (1, 2))
+        h = int(state.half[tally[codes.FAULT]])
+        a, b = sorted(int(state.element[h - h % 3 + (h + step) % 3]) for step in (1, 2))
         raise not_a_cost(a, b)
-    return np.asarray(element, dtype=np.int32).reshape(-1, 3)
+    return np.asarray(state.element, dtype=np.int32).reshape(-1, 3)
 
 
 def _watched(kernel, watch, order, tally, *arguments):
@@ -205,19 +201,19 @@ def _watched(kernel, watch, order, tally, *arguments):
         watch.report(tally[codes.PLACE] if waiting == len(order) else len(order) - waiting)
 
 
-def logs_for(rows, kernels):
-    """Room to record so many tried swaps."""
-    writable = kernels.backend.writable
-    return writable(np.zeros(6 * rows, dtype=np.int64)), writable(np.zeros(2 * rows))
+def log_for(rows, kernels):
+    """Room to record a number of tried swaps."""
+    writable = kernels.writable
+    return Log(writable(np.zeros(6 * rows, dtype=np.int64)), writable(np.zeros(2 * rows)))
 
 
-def _rows(sweep, log, costs, count):
+def _rows(sweep, log, count):
     rows = np.zeros(count, dtype=TRACE)
     rows["sweep"] = sweep
-    table = np.reshape(log[: 6 * count], (-1, 6))
+    table = np.reshape(log.tried[: 6 * count], (-1, 6))
     for name, column in zip(("edge", "a", "b", "c", "d", "accepted"), table.T, strict=True):
         rows[name] = column
-    rows["old"], rows["new"] = np.reshape(costs[: 2 * count], (-1, 2)).T
+    rows["old"], rows["new"] = np.reshape(log.costs[: 2 * count], (-1, 2)).T
     return rows
 
 

@@ -7,7 +7,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from .. import checks, criteria
-from .._typing import ArrayLike, Norm, Values
+from .._typing import ArrayLike, IntArray, NDArray, Norm, Values
 from ..criteria import norms
 from ..criteria.criterion import Criterion
 from ..errors import Interrupted
@@ -17,9 +17,8 @@ from ..support.progress import Watch
 from .along_curve import AlongCurve
 from .procedure import Limits, Procedure
 
-SCHEDULES = ("sweep", "queue")
-LARGEST_MIN_ANGLE = 60.0
-JUST_MET = 1 - 1e-10  # a limit that is met but for rounding is met
+LARGEST_MIN_ANGLE = 60.0  # degrees; no triangle has a larger smallest angle
+JUST_MET = 1 - 1e-10  # fraction of a limit that meets it, so that rounding does not break it
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -43,7 +42,7 @@ class Swapping(Record):
     swaps: int
     sweeps: int
     tried: int
-    _rerun: Callable[[], np.ndarray] = field(repr=False)
+    _rerun: Callable[[], NDArray[np.void]] = field(repr=False)
     _cost: Callable[[Mesh], float] = field(repr=False)
     _start: Mesh = field(repr=False)
 
@@ -58,18 +57,19 @@ class Swapping(Record):
         return self._cost(self.mesh)
 
     @cached_property
-    def history(self) -> np.ndarray:
+    def history(self) -> NDArray[np.void]:
         """Every tried swap, a structured array with a row for each.
 
         Fields: ``sweep``; ``edge``, its number in the start mesh; the old edge ``a``-``b`` and
         the new edge ``c``-``d``; ``accepted``; and the local costs ``old`` and ``new`` as the
         norm compares them: squared for L2, the first that differ for the lexicographic order.
-        The procedure is deterministic: the history is made on first use by running it again.
+        The history is recorded on first use by a second run of the procedure, which is
+        deterministic.
         """
         return self._rerun()[: self.tried]
 
     def __getstate__(self) -> dict[str, object]:
-        """All that can be asked for, computed, since a criterion need not be picklable."""
+        """All results, computed if they have not been: a criterion may not be picklable."""
         lazy = {name: getattr(self, name) for name in ("cost_before", "cost_after", "history")}
         return {k: v for k, v in self.__dict__.items() if k not in ("_rerun", "_cost", "_start")} | lazy
 
@@ -90,8 +90,8 @@ def swapped(
     """The mesh after the local optimisation procedure (Algorithm 3.1.4).
 
     Edges are inspected in order, sweep by sweep; an edge whose quadrilateral is
-    strictly convex is swapped for the other diagonal if that lowers the local cost,
-    until no edge is left to swap.
+    strictly convex is swapped for the other diagonal if that lowers the local cost.
+    The procedure ends when no such edge is left.
 
     Parameters
     ----------
@@ -113,15 +113,15 @@ def swapped(
         Swaps that create an element below this area are refused.
     min_gain : float, optional
         Gain in the norm of the local cost below which no swap is made, in the unit of the
-        costs; see the notes for the default.
+        costs; the notes explain the default.
     schedule : {"sweep", "queue"}
         ``"sweep"``, that of the thesis, goes through all edges again and again.
         ``"queue"`` inspects each edge once and then, first come, first served, those
         that a swap has touched; it is faster on large meshes, and another order leads
         to another local optimum.
     progress : bool
-        Whether to show a progress bar: edges inspected in this sweep, or those that no
-        longer wait in the queue.
+        Whether to show a progress bar, which counts the edges inspected in this sweep or
+        those that no longer wait in the queue.
 
     Returns
     -------
@@ -130,11 +130,16 @@ def swapped(
     Raises
     ------
     Interrupted
-        At an interrupt (Ctrl-C) while kernels run.  A KeyboardInterrupt, whose
-        ``result`` is the Swapping so far; its mesh is valid, but not yet optimal.
+        After an interrupt (Ctrl-C) while kernels run.  It is a KeyboardInterrupt, and its
+        ``result`` is the Swapping so far, whose mesh is valid but not yet optimal.
     MeshError
         If the mesh is not valid, a value is not finite, a criterion or norm is not
-        known, the order is no permutation, or a limit is out of range.
+        known, the order is not a permutation, or a limit is out of range.
+
+    See Also
+    --------
+    annealed, local_optima, optimal : Meshes of lower cost, at a higher price.
+    refined, smoothed, combined : Other ways to lower the error.
 
     Notes
     -----
@@ -148,21 +153,22 @@ def swapped(
     In floating point the same holds, for two reasons.  The cost of an edge is computed
     from its elements alone, in an order that does not depend on the swaps before, so
     that it is the same number whenever these elements occur.  And a swap is made only
-    if ``new < old (1 - 1e-12) - a`` for the norms of the local costs: by more than the
-    rounding of a sum of five.  The absolute part ``a``, 1e-11 of the size of a typical
-    cost of such data or ``min_gain``, keeps an edge where old and new cost differ
-    by noise alone, so that the result does not hang on the last bit.  The lexicographic
-    order compares costs rounded to multiples of ``a`` instead.
+    if ``new < old (1 - 1e-12) - a`` for the norms of the local costs: the gain must
+    exceed the rounding error of a sum of five costs.  The absolute part ``a`` is
+    ``min_gain``, by default 1e-11 of the size of a typical cost of such data.  It keeps
+    an edge where old and new cost differ by noise alone, so that the result does not
+    depend on the last bit.  The lexicographic order instead compares costs rounded to
+    multiples of ``a``.
 
     Built-in edge and angle criteria, `criteria.pointwise` ones and the min-error
-    criterion run in kernels.  These are compiled where numba is installed, once there is
-    enough to do to be worth the time of loading it.  The lexicographic order and
-    user-defined vectorised costs run in Python, with NumPy.
+    criterion run in kernels.  Where numba is installed, kernels are compiled as soon as
+    there is enough work to justify the time that loading numba takes.  The lexicographic
+    order and user-defined vectorised costs run in Python, with NumPy.
 
-    *The default schedule* is that of the thesis, for every mesh: what comes out must
-    not depend on how large the mesh is.  Choose ``"queue"`` for large ones: nodes are
-    then also numbered along the curve while it runs, so that neighbours are near in
-    memory.
+    *The default schedule* is that of the thesis for every mesh, since the result must not
+    follow another rule on large meshes than on small ones.  Choose ``"queue"`` for large
+    meshes.  While it runs, nodes are numbered along a space-filling curve, so that
+    neighbours are near in memory.
 
     Examples
     --------
@@ -172,18 +178,15 @@ def swapped(
     >>> result.swaps, result.sweeps
     (56, 2)
     """
-    checks.choice(schedule, SCHEDULES, "schedule")
+    checks.choice(schedule, ("sweep", "queue"), "schedule")
     procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
-    if order is None and schedule == "queue":
-        runner = AlongCurve(procedure)
-    else:
-        runner, order = procedure, checks.permutation(order, procedure.mesh.n_edges)
-    if procedure.criterion.is_own:
+    runner, edges = _runner(procedure, order, schedule)
+    if procedure.criterion.is_user_defined:
         procedure.cost(procedure.mesh)  # refuses what is no cost, also where nothing will be swapped
     with Watch(progress, procedure.mesh.n_edges if progress else 0, "edge") as watch:
-        done = runner.run(order, False, schedule, watch)
+        done = runner.run(edges, False, schedule, watch)
     result = _swapped_mesh(procedure.mesh, done.elements) if done.swaps else procedure.mesh
-    rerun = partial(_history, runner, order, schedule)
+    rerun = partial(_history, runner, edges, schedule)
     found = Swapping(
         result, procedure.values, done.swaps, done.sweeps, done.tried, rerun, procedure.cost, procedure.mesh
     )
@@ -192,7 +195,18 @@ def swapped(
     return found
 
 
-def _history(runner, order, schedule):
+def _runner(
+    procedure: Procedure, order: ArrayLike | None, schedule: str
+) -> tuple[Procedure | AlongCurve, IntArray]:
+    """What runs the procedure, and the edges in their order; a queue without an order follows a curve."""
+    edges = np.arange(procedure.mesh.n_edges)
+    if order is not None:
+        return procedure, checks.permutation(order, len(edges))
+    return (AlongCurve(procedure) if schedule == "queue" else procedure), edges
+
+
+def _history(runner: Procedure | AlongCurve, order: IntArray, schedule: str) -> NDArray[np.void]:
+    """Every swap that the procedure tries."""
     return runner.run(order, True, schedule).trace
 
 
@@ -207,29 +221,31 @@ def prepared(
 ) -> Procedure:
     """The procedure with these arguments, checked as for `swapped`, for any edge order."""
     mesh = checks.a_mesh(mesh)
-    values = checks.nodal_values(mesh, values)
+    at_nodes = checks.nodal_values(mesh, values)
     criterion, norm = criteria.get(criterion), norms.checked(norm)
     limits = _limits(min_angle, min_area)
-    gain = _least_gain(min_gain, criterion.scale(mesh, values))
-    return Procedure(mesh, values, criterion, norm, limits, gain)
+    gain = _least_gain(min_gain, criterion.scale(mesh, at_nodes))
+    return Procedure(mesh, at_nodes, criterion, norm, limits, gain)
 
 
-def _swapped_mesh(mesh, elements):
+def _swapped_mesh(mesh: Mesh, elements: IntArray) -> Mesh:
     """The new mesh, with the green pairs whose elements are still in their rows."""
     kept = (elements[mesh.green] == mesh.elements[mesh.green]).all(axis=(1, 2))
     return Mesh._trusted(mesh.nodes, elements, mesh.green[kept])
 
 
-def _limits(min_angle, min_area):
+def _limits(min_angle: float | None, min_area: float | None) -> Limits:
+    """The limits on the elements that a swap creates, each relaxed by rounding."""
     angle, area = (0 if limit is None else limit for limit in (min_angle, min_area))
     angle = checks.number(angle, "min_angle", 0, LARGEST_MIN_ANGLE, "degrees from 0 to below 60")
     area = checks.number(area, "min_area", 0, np.inf, "a finite area of at least 0")
     return Limits(np.radians(angle) * JUST_MET, area * JUST_MET)
 
 
-def _least_gain(min_gain, scale):
-    """Relative and absolute part of the gain that a swap must exceed."""
-    relative, absolute = norms.tolerance(scale)
+def _least_gain(min_gain: float | None, scale: float) -> norms.Tolerance:
+    """The gain of the norm that a swap must exceed; ``min_gain`` replaces its absolute part."""
+    gain = norms.tolerance(scale)
     if min_gain is None:
-        return relative, absolute
-    return relative, checks.number(min_gain, "min_gain", 0, np.inf, "a finite gain of at least 0")
+        return gain
+    least = checks.number(min_gain, "min_gain", 0, np.inf, "a finite gain of at least 0")
+    return gain._replace(absolute=least)

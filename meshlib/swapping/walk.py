@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ..kernels import COMPILED, codes
+from ..kernels import ANY, codes, for_work
 from ..mesh.mesh import Mesh
-from .procedure import elements_of, logs_for
+from .procedure import elements_of, log_for
 
 
 def walk_from(procedure):
@@ -17,25 +17,26 @@ class _Compiled:
 
     def __init__(self, procedure):
         self._mesh = procedure.mesh
-        self._state, self._arguments = procedure.arguments(COMPILED)  # many levels are worth loading it
+        self._kernels = for_work(ANY)
+        *self._rules, self._state = procedure.arguments(self._kernels)
         self._tally = np.array([0] * codes.FAULT + [-1])
 
     def go(self, edges, rises):
         """Inspect edges, and swap where the sum of costs, or of their squares, rises by less than given."""
-        self._go(edges, rises, logs_for(0, COMPILED))
+        self._go(edges, rises, log_for(0, self._kernels))
 
     def differences(self):
         """What each possible swap would add to that sum."""
         count = self._mesh.n_edges
-        logs = logs_for(count, COMPILED)
-        self._go(np.arange(count), np.full(count, -np.inf), logs)
-        old, new = np.reshape(logs[1], (-1, 2)).T
-        return (new - old)[np.reshape(logs[0], (-1, 6))[:, 1:3].any(axis=1)]
+        log = log_for(count, self._kernels)
+        self._go(np.arange(count), np.full(count, -np.inf), log)
+        old, new = np.reshape(log.costs, (-1, 2)).T
+        return (new - old)[np.reshape(log.tried, (-1, 6))[:, 1:3].any(axis=1)]
 
-    def _go(self, edges, rises, logs):
-        readable, tally = COMPILED.backend.readable, COMPILED.backend.writable(self._tally)
-        COMPILED.schedules.walked(
-            readable(edges.astype(np.int32)), readable(rises), tally, *self._arguments, *logs
+    def _go(self, edges, rises, log):
+        readable, tally = self._kernels.readable, self._kernels.writable(self._tally)
+        self._kernels.schedules.walked(
+            readable(edges.astype(np.int32)), readable(rises), tally, *self._rules, self._state, log
         )
         self._tally = np.asarray(tally)
 
