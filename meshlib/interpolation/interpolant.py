@@ -1,5 +1,7 @@
 """The continuous piecewise linear interpolant u_h of nodal values (chapter 2)."""
 
+from __future__ import annotations
+
 from functools import cached_property
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Linear functions on single elements: their gradients, and the squares of their errors."""
 
+from typing import Any
+
 import numpy as np
 
 from .._typing import FloatArray, Function
@@ -29,7 +31,8 @@ def gradients(corners: FloatArray, values: FloatArray) -> FloatArray:
     e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     du, dv = values[:, 1] - values[:, 0], values[:, 2] - values[:, 0]
     twice_area = e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]
-    return np.column_stack(gradient(e.T, f.T, du, dv, twice_area))
+    formula: Any = gradient  # the kernel takes one element, its formula holds for arrays too
+    return np.column_stack(formula(e.T, f.T, du, dv, twice_area))
 
 
 def squared_errors(corners: FloatArray, values: FloatArray, function: Function, degree: int) -> FloatArray:

@@ -1,5 +1,7 @@
 """Delaunay meshes, the same on every platform (section 2.3.2)."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from .. import checks
