@@ -12,7 +12,7 @@ import numpy as np
 from remeshing import STEP, delatin, mmg2d
 
 from meshlib import MeshError, approximate, problems
-from meshlib.interpolation.interpolant import squared_errors
+from meshlib.interpolation.on_elements import squared_errors
 from meshlib.thesis.studies import section_7_7a_limit as limit
 from meshlib.thesis.studies.appendix_b import quartered
 

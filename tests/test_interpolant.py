@@ -172,13 +172,13 @@ def test_quadrature_is_exact_to_its_degree(degree):
 @pytest.mark.parametrize("points", [1, 100, 26 * 25])
 def test_batches_do_not_matter(points, monkeypatch):
     """An element has 25 points of degree 8: one, four and 26 elements at once."""
-    from meshlib.interpolation import interpolant
+    from meshlib.interpolation import on_elements
 
     u = problems.functions["franke"]
     u_h = Interpolant(problems.mesh("81"), u)
     expected = u_h.squared_errors(u)
     assert len(quadrature.rule(8)[1]) == 25
-    monkeypatch.setattr(interpolant, "POINTS_AT_ONCE", points)
+    monkeypatch.setattr(on_elements, "POINTS_AT_ONCE", points)
     assert np.allclose(u_h.squared_errors(u), expected, rtol=1e-12, atol=0)
 
 

@@ -94,7 +94,7 @@ def test_many_slivers_share_few_cells():
     elements = [t for n in range(1000) for t in ([n, n + 1001, n + 1], [n + 1, n + 1001, n + 1002])]
     mesh = Mesh._trusted(nodes, elements)
     buckets = locate_by_buckets._Buckets(mesh)
-    assert len(buckets.elements) <= locate_by_buckets.CELLS_OF_AN_ELEMENT * mesh.n_elements
+    assert len(buckets.elements) <= buckets.cells_per_element * mesh.n_elements
 
 
 def test_crowded_points_have_narrow_strips(rng):

@@ -13,7 +13,7 @@ All is written in the frame of a patch, two directions in which it is round.
 
 import numpy as np
 
-from ..interpolation.interpolant import gradients
+from ..interpolation.on_elements import gradients
 from ..mesh.boundary_sides import INTERIOR
 from .collapse import beside
 

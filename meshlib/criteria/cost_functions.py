@@ -11,7 +11,8 @@ The compiled forms in `meshlib.kernels.costs` are tested against these.
 import numpy as np
 
 from .._typing import FloatArray, Function
-from ..interpolation.interpolant import Interpolant, gradients, squared_errors
+from ..interpolation.interpolant import Interpolant
+from ..interpolation.on_elements import gradients, squared_errors
 from ..mesh.quality import EQUILATERAL, angles
 
 

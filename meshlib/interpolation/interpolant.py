@@ -1,5 +1,7 @@
 """The continuous piecewise linear interpolant u_h of nodal values (chapter 2)."""
 
+from __future__ import annotations
+
 from functools import cached_property
 from typing import Any
 
@@ -8,19 +10,17 @@ import numpy as np
 from .. import checks
 from .._typing import ArrayLike, FloatArray, Function, Values
 from ..errors import InvalidInputError
-from ..geometry import quadrature
 from ..kernels import for_work
-from ..kernels.element_shapes import gradient
 from ..mesh.mesh import Mesh
 from ..support.drawing import drawn
 from .locate_by_buckets import by_buckets
 from .locate_by_strips import in_strips
+from .on_elements import gradients, squared_errors
 
-DEFAULT_DEGREE = 8
-ROUNDING = 8 * np.finfo(float).eps  # of a coordinate, in the places where a row cuts a side
-POINTS_AT_ONCE = 100_000  # of quadrature, which keeps them in nearby memory
-STEPS_OF_AN_ELEMENT, POINTS_IN_A_STEP = 5, 8  # of plain Python, when a grid is filled
-FILLED = 1e-9  # how far, relatively, the domain may fall short of its bounding box
+DEFAULT_DEGREE = 8  # polynomial degree up to which quadrature is exact
+ROUNDING = 8 * np.finfo(float).eps  # relative error of the place where a row of a grid cuts a side
+STEPS_OF_AN_ELEMENT, POINTS_IN_A_STEP = 5, 8  # work of filling a grid, in steps of plain Python
+FILLED = 1e-9  # part of its bounding box that a rectangular domain may seem to lack, by rounding
 
 
 class Interpolant:
@@ -32,10 +32,20 @@ class Interpolant:
     values : (N,) array_like of float, or callable
         Values of u at the nodes, or a vectorised function u(x, y).
 
+    Attributes
+    ----------
+    mesh : Mesh
+    values : (N,) ndarray of float64
+        Values of u at the nodes; read-only.
+
     Raises
     ------
     MeshError
-        If a value is missing or not finite.
+        If the mesh is not valid, or a value is missing or not finite.
+
+    See Also
+    --------
+    Mesh, delaunay, meshlib.plotting.plot_surface
 
     Examples
     --------
@@ -73,13 +83,13 @@ class Interpolant:
         Returns
         -------
         ndarray of float64
-            Of the common shape of x and y.
+            Array with the common shape of x and y.
         """
         x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
         points = np.column_stack([x.ravel(), y.ravel()])
         return self._at(points).reshape(x.shape)
 
-    def _at(self, points):
+    def _at(self, points: FloatArray) -> FloatArray:
         """Values at the rows of an array of points."""
         strips = in_strips(self.mesh, points)
         if strips is not None:
@@ -88,7 +98,7 @@ class Interpolant:
         first = self.mesh.elements[element, 0]
         away = points - self.mesh.nodes[first]
         values = self.values[first] + (self.gradients[element] * away).sum(axis=1)
-        return np.where(element < 0, np.nan, values)
+        return np.asarray(np.where(element < 0, np.nan, values))
 
     def on_grid(self, nx: int = 101, ny: int | None = None) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Values on a regular grid over the bounding box of the mesh.
@@ -96,12 +106,26 @@ class Interpolant:
         Parameters
         ----------
         nx, ny : int
-            Number of points along x and y; ``ny`` is ``nx`` if left out.
+            Number of points along x and y, at least 2; by default ``ny`` is ``nx``.
 
         Returns
         -------
-        x : (nx,) ndarray, y : (ny,) ndarray, u : (ny, nx) ndarray
-            NaN outside the domain.
+        x : (nx,) ndarray of float64
+        y : (ny,) ndarray of float64
+        u : (ny, nx) ndarray of float64
+            Values, NaN outside the domain.
+
+        Raises
+        ------
+        MeshError
+            If ``nx`` or ``ny`` is not a whole number of at least 2.
+
+        Examples
+        --------
+        >>> from meshlib import delaunay
+        >>> u_h = Interpolant(delaunay([[0, 0], [1, 0], [0, 1]]), [0, 2, 4])
+        >>> u_h.on_grid(3)[2].tolist()
+        [[0.0, 1.0, 2.0], [2.0, 3.0, nan], [4.0, nan, nan]]
         """
         nx = checks.whole(nx, 2, "nx")
         ny = nx if ny is None else checks.whole(ny, 2, "ny")
@@ -109,8 +133,8 @@ class Interpolant:
         x, y = np.linspace(low[0], high[0], nx), np.linspace(low[1], high[1], ny)
         return x, y, self._raster(low, high, nx, ny)
 
-    def _raster(self, low, high, nx, ny):
-        """Values on the grid from low to high."""
+    def _raster(self, low: FloatArray, high: FloatArray, nx: int, ny: int) -> FloatArray:
+        """Values on a grid of ny rows and nx columns from the corner ``low`` to the corner ``high``."""
         kernels = for_work(STEPS_OF_AN_ELEMENT * self.mesh.n_elements + nx * ny // POINTS_IN_A_STEP)
         step, largest = (high - low) / (nx - 1, ny - 1), np.abs([low, high]).max(axis=0)
         slack = kernels.raster.SLACK + ROUNDING * (largest / step).max()
@@ -142,6 +166,11 @@ class Interpolant:
         Returns
         -------
         float
+            In the unit of u times that of the coordinates.
+
+        See Also
+        --------
+        squared_errors, error_on_grid
 
         Raises
         ------
@@ -158,23 +187,22 @@ class Interpolant:
         (0.059694, 0.059697)
         """
         checks.choice(rule, ("exact", "trapezium"), "rule")
-        square = self._by_quadrature(function, degree) if rule == "exact" else self._by_grid(function, points)
+        if rule == "exact":
+            square = float(self.squared_errors(function, checks.whole(degree, 0, "degree")).sum())
+        else:
+            square = self._by_grid(function, points)
         if not np.isfinite(square):
             raise InvalidInputError(
                 "finite", "the function is not finite everywhere in the domain; l2_error needs it to be"
             )
         return float(np.sqrt(square))
 
-    def _by_quadrature(self, function, degree):
-        return self.squared_errors(function, checks.whole(degree, 0, "degree")).sum()
-
-    def _by_grid(self, function, points):
+    def _by_grid(self, function: Function, points: int) -> float:
         x, y, error = self.error_on_grid(function, checks.whole(points, 2, "points"))
         if not np.isclose(np.ptp(x) * np.ptp(y), self.mesh.domain_area, rtol=FILLED, atol=0):
-            raise InvalidInputError(
-                "domain", 'the trapezium rule needs a rectangular domain; use rule="exact"'
-            )
-        return np.trapezoid(np.trapezoid(error**2, x, axis=1), y)
+            message = 'the trapezium rule needs a rectangular domain; use rule="exact"'
+            raise InvalidInputError("domain", message)
+        return float(np.trapezoid(np.trapezoid(error**2, x, axis=1), y))
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
         """Draw lines of constant value over the mesh.
@@ -208,50 +236,58 @@ class Interpolant:
     def error_on_grid(
         self, function: Function, points: int = 101
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """u - u_h on a regular grid: x (points,), y (points,), error (points, points)."""
+        """The error u - u_h on a regular grid over the bounding box of the mesh.
+
+        Parameters
+        ----------
+        function : callable
+            Vectorised u(x, y).
+        points : int
+            Number of grid points in each direction, at least 2.
+
+        Returns
+        -------
+        x, y : (points,) ndarray of float64
+        error : (points, points) ndarray of float64
+            One row for each y, NaN outside the domain.
+
+        See Also
+        --------
+        on_grid, l2_error
+
+        Examples
+        --------
+        >>> from meshlib import delaunay
+        >>> u_h = Interpolant(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]), lambda x, y: x**2)
+        >>> u_h.error_on_grid(lambda x, y: x**2, points=3)[2].tolist()
+        [[0.0, -0.25, 0.0], [0.0, -0.25, 0.0], [0.0, -0.25, 0.0]]
+        """
         x, y, u_h = self.on_grid(points)
         return x, y, function(x[None, :], y[:, None]) - u_h
 
     def squared_errors(self, function: Function, degree: int = DEFAULT_DEGREE) -> FloatArray:
-        """(T,) float64: the integral of (u - u_h)^2 over each element, by quadrature."""
+        """The integral of (u - u_h)^2 over each element, by quadrature.
+
+        Parameters
+        ----------
+        function : callable
+            Vectorised u(x, y).
+        degree : int
+            Polynomial degree of (u - u_h)^2 that is integrated exactly.
+
+        Returns
+        -------
+        (T,) ndarray of float64
+
+        See Also
+        --------
+        l2_error
+
+        Examples
+        --------
+        >>> from meshlib import Mesh
+        >>> u_h = Interpolant(Mesh([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]]), [0, 0, 0])
+        >>> u_h.squared_errors(lambda x, y: 0 * x + 3).round(12).tolist()
+        [4.5]
+        """
         return squared_errors(self.mesh.corners, self.values[self.mesh.elements], function, degree)
-
-
-def gradients(corners, values):
-    """Gradients of planes through three points in space.
-
-    Parameters
-    ----------
-    corners : (T, 3, 2) ndarray of float
-    values : (T, 3) ndarray of float
-
-    Returns
-    -------
-    (T, 2) ndarray of float64
-
-    Examples
-    --------
-    >>> gradients(np.array([[[0., 0.], [1., 0.], [0., 1.]]]), np.array([[0., 2., 3.]])).tolist()
-    [[2.0, 3.0]]
-    """
-    e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    du, dv = values[:, 1] - values[:, 0], values[:, 2] - values[:, 0]
-    twice_area = e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]
-    return np.column_stack(gradient(e.T, f.T, du, dv, twice_area))
-
-
-def squared_errors(corners, values, function, degree):
-    """Integral of (u - u_h)^2 over each element with the given corners and values."""
-    found, step = np.empty(len(corners)), max(1, POINTS_AT_ONCE // len(quadrature.rule(degree)[1]))
-    for start in range(0, len(corners), step):
-        batch = slice(start, start + step)
-        found[batch] = _squared_errors(corners[batch], values[batch], function, degree)
-    return found
-
-
-def _squared_errors(corners, values, function, degree):
-    x, y, barycentric, weights = quadrature.points_in(corners, degree)
-    error = function(x, y) - values @ barycentric.T
-    e, f = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    areas = np.abs(e[:, 0] * f[:, 1] - e[:, 1] * f[:, 0]) / 2
-    return areas * (error**2 @ weights)

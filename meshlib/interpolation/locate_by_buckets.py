@@ -1,16 +1,15 @@
-"""Which element a point lies in, by a grid of buckets over the bounding box."""
+"""Search for the element in which a point lies, by a grid of buckets over the bounding box."""
 
 import numpy as np
 
+from .._typing import FloatArray, IntArray
 from ..geometry.predicates import nearly_flat
 from ..kernels.element_shapes import INSIDE
+from ..mesh.mesh import Mesh
 from .locate_by_strips import in_strips
 
-PAIRS_AT_ONCE = 2_000_000
-CELLS_OF_AN_ELEMENT = 64  # on average, beyond which the cells are made larger
 
-
-def located(mesh, points):
+def located(mesh: Mesh, points: FloatArray) -> IntArray:
     """The element that contains each point.
 
     Parameters
@@ -21,8 +20,9 @@ def located(mesh, points):
     Returns
     -------
     (m,) ndarray of int32
-        Element numbers, -1 outside the domain.  On an edge or a node the element
-        with the largest smallest barycentric coordinate is taken, then the first.
+        Element numbers, -1 outside the domain.  Of several elements at a point on an edge
+        or a node, the one in which the point lies deepest is taken: its depth is the
+        smallest of its barycentric coordinates.  Of equal depths, the first element wins.
 
     Examples
     --------
@@ -35,11 +35,11 @@ def located(mesh, points):
     return by_buckets(mesh, points) if strips is None else strips.elements()
 
 
-def by_buckets(mesh, points):
-    """`located` by operations on arrays, which plain Python runs faster than a loop."""
+def by_buckets(mesh: Mesh, points: FloatArray) -> IntArray:
+    """The element that contains each point, by NumPy alone; see `located`."""
     buckets = _Buckets(mesh)
     found = np.empty(len(points), dtype=np.int32)
-    step = max(1, int(PAIRS_AT_ONCE / buckets.mean_load))
+    step = max(1, int(buckets.pairs_at_once / buckets.mean_load))
     for start in range(0, len(points), step):
         found[start : start + step] = buckets.search(points[start : start + step])
     return found
@@ -48,27 +48,34 @@ def by_buckets(mesh, points):
 class _Buckets:
     """Elements by the cells of a square grid that their bounding boxes touch."""
 
-    def __init__(self, mesh):
+    pairs_at_once = 2_000_000  # largest number of points and elements compared at once, to limit the memory
+    cells_per_element = 64  # mean number beyond which the cells are made larger
+
+    def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         self.low, self.high = mesh.box
         self.n = int(np.sqrt(mesh.n_elements))
-        self.flat = nearly_flat(mesh.corners)  # asked only where there is no other element
+        self.flat = nearly_flat(mesh.corners)  # these have a point only if no other element has it
         self._fill()
 
-    def _cell(self, points):
-        """Column and row of points in the bounding box, n of each however flat the domain."""
+    def _cell(self, points: FloatArray) -> IntArray:
+        """Column and row of the cell of each point; there are n of each, whatever the shape of the domain."""
         share = (points - self.low) / (self.high - self.low)
         return np.floor(share * self.n).astype(np.intp).clip(0, self.n - 1)
 
-    def _boxes(self):
+    def _boxes(self) -> tuple[IntArray, IntArray, IntArray]:
         """First cell, width and height in cells of each bounding box."""
         first = self._cell(self.mesh.corners.min(axis=1))
         last = self._cell(self.mesh.corners.max(axis=1))
-        return first, *(last - first + 1).T
+        width, height = (last - first + 1).T
+        return first, width, height
 
-    def _fill(self):
+    def _fill(self) -> None:
+        """Sort the elements by the cells that their bounding boxes touch."""
         first, width, height = self._boxes()
-        while (width * height).sum() > CELLS_OF_AN_ELEMENT * len(first) and self.n > 1:  # many long slivers
+        while (width * height).sum() > self.cells_per_element * len(
+            first
+        ) and self.n > 1:  # many long slivers
             self.n //= 2
             first, width, height = self._boxes()
         element = np.repeat(np.arange(len(first)), width * height)
@@ -80,9 +87,9 @@ class _Buckets:
         self.starts = np.concatenate([[0], np.cumsum(load)])
         self.mean_load = max(1.0, float((load**2).sum() / max(load.sum(), 1)))
 
-    def search(self, points):
-        """The best element of each point's cell, or -1."""
-        known = ((points >= self.low) & (points <= self.high)).all(axis=1)  # NaN is not
+    def search(self, points: FloatArray) -> IntArray:
+        """The element in which each point lies deepest, of those that touch its cell, or -1."""
+        known = np.all((points >= self.low) & (points <= self.high), axis=1)  # NaN is not
         cell = self._cell(np.where(known[:, None], points, self.low))
         flat = cell[:, 1] * self.n + cell[:, 0]
         load = np.where(known, self.starts[flat + 1] - self.starts[flat], 0)
@@ -93,7 +100,7 @@ class _Buckets:
         return _deepest(point, candidate, depth, len(points))
 
 
-def barycentric(corners, points):
+def barycentric(corners: FloatArray, points: FloatArray) -> FloatArray:
     """Barycentric coordinates of one point in each element.
 
     Parameters
@@ -118,16 +125,16 @@ def barycentric(corners, points):
     return np.column_stack([1 - second - third, second, third])
 
 
-def _count_up(lengths):
-    """0 .. n-1 for every n in lengths, one after the other."""
+def _count_up(lengths: IntArray) -> IntArray:
+    """0 to n - 1 for each n in lengths, one sequence after the other."""
     ends = np.cumsum(lengths)
     return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - lengths, lengths)
 
 
-def _deepest(point, candidate, depth, n_points):
-    """The candidate of greatest depth of each point, of several the first; -1 if all are outside.
+def _deepest(point: IntArray, candidate: IntArray, depth: FloatArray, n_points: int) -> IntArray:
+    """The candidate in which each point lies deepest, the first of equal ones; -1 if it is outside all.
 
-    The candidates of a point stand together, in ascending order.
+    ``point`` ascends, and the candidates of each point do.
     """
     found = np.full(n_points, -1, dtype=np.int32)
     new = np.diff(point, prepend=-1) != 0

@@ -1,4 +1,4 @@
-"""What every operation returns: a mesh, its nodal values, and how it came about."""
+"""The base of the results of all operations: a mesh and its nodal values."""
 
 from dataclasses import dataclass, fields
 from functools import cached_property
@@ -24,10 +24,10 @@ class Record:
 
     Notes
     -----
-    The records of single operations add ``cost_before`` and ``cost_after``, the cost of the
-    start mesh and of the new one by what the operation lowers; ``history``, a structured
-    array with a row for each step, where there are steps; and what is special to them.
-    All can be pickled.
+    The record of an operation has further attributes: ``cost_before`` and ``cost_after``,
+    the cost of the start mesh and of the new mesh in the measure that the operation lowers;
+    ``history``, a structured array with a row for each step; and those special to it.
+    All records can be pickled.
 
     See Also
     --------

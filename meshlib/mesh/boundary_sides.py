@@ -64,7 +64,7 @@ def sides_of(mesh: AnyMesh) -> Sides:
     corner = _turns(mesh, after)
     of_node = np.where(mesh.boundary_nodes, CORNER, INTERIOR)
     found: list[tuple[int, int]] = []
-    for start in np.flatnonzero(corner):
+    for start in np.flatnonzero(corner).tolist():
         for node in after[start]:
             while not corner[node]:
                 of_node[node] = len(found)
@@ -90,7 +90,7 @@ def _turns(mesh: AnyMesh, after: list[list[int]]) -> BoolArray:
         for head in heads:
             before[head].append(node)
     corner = np.zeros(mesh.n_nodes, dtype=bool)
-    for node in np.flatnonzero(mesh.boundary_nodes):
+    for node in np.flatnonzero(mesh.boundary_nodes).tolist():
         came, goes = (mesh.nodes[np.array(n[node])[:1]] for n in (before, after))
         here = mesh.nodes[node]
         corner[node] = len(after[node]) > 1 or not _is_straight(here - came[0], goes[0] - here)

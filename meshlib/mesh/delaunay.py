@@ -1,5 +1,7 @@
 """Delaunay meshes, the same on every platform (section 2.3.2)."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from .. import checks
@@ -185,7 +187,7 @@ def _is_worse(nodes: FloatArray, a: IntArray, b: IntArray, c: IntArray, d: IntAr
 
 
 def _independent(quads: IntArray, pairs: IntArray, n_elements: int) -> tuple[IntArray, IntArray]:
-    """Quadrilaterals, and their pairs of elements, of which no two share an element; the first comes first."""
+    """Quadrilaterals that share no element, and their pairs of elements; of two that share one, the first."""
     alike = np.zeros(len(pairs))
     free = independent(alike, np.repeat(np.arange(len(pairs)), 2), pairs.ravel(), n_elements)
     return quads[free], pairs[free]

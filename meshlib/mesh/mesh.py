@@ -1,5 +1,7 @@
 """The mesh: nodes and elements, from which all but the memory of green refinement is derived."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any
 
@@ -68,13 +70,13 @@ class Mesh(Derived):
         array.flags.writeable = False
         object.__setattr__(self, name, array)
 
-    def __reduce__(self) -> tuple[type["Mesh"], tuple[FloatArray, IntArray, IntArray]]:
+    def __reduce__(self) -> tuple[type[Mesh], tuple[FloatArray, IntArray, IntArray]]:
         return Mesh, (self.nodes, self.elements, self.green)  # a copy is frozen too
 
     def __repr__(self) -> str:
         return "Mesh({} nodes, {} edges, {} elements)".format(*self.counts)
 
-    def equals(self, other: "Mesh") -> bool:
+    def equals(self, other: Mesh) -> bool:
         """Whether another mesh has the same nodes, in the same order, and the same elements, in any order.
 
         Parameters
@@ -122,7 +124,7 @@ class Mesh(Derived):
         """
         return topology.edge_numbers(self.edges, self.n_nodes, checks.node_pairs(pairs))
 
-    def validate(self) -> "Mesh":
+    def validate(self) -> Mesh:
         """Check every clause of Definitions 2.0.1 and 2.0.2 in exact arithmetic.
 
         Returns
@@ -149,7 +151,7 @@ class Mesh(Derived):
         object.__setattr__(self, "_valid", True)
         return self
 
-    def _checked(self) -> "Mesh":
+    def _checked(self) -> Mesh:
         """The mesh, validated unless it has been before."""
         return self if getattr(self, "_valid", False) else self.validate()
 
@@ -160,8 +162,8 @@ class Mesh(Derived):
         elements: ArrayLike,
         green: ArrayLike | None = None,
         *,
-        connected_as: "Mesh | None" = None,
-    ) -> "Mesh":
+        connected_as: Mesh | None = None,
+    ) -> Mesh:
         """A mesh made by an operation that keeps a valid mesh valid: nothing is checked or copied.
 
         The edges of ``connected_as``, a mesh with these elements on other nodes, are not derived again.
@@ -228,7 +230,7 @@ class Mesh(Derived):
         return arrays.to_arrays(self)
 
     @classmethod
-    def from_arrays(cls, nodes: ArrayLike, edges: ArrayLike, elements: ArrayLike) -> "Mesh":
+    def from_arrays(cls, nodes: ArrayLike, edges: ArrayLike, elements: ArrayLike) -> Mesh:
         """Mesh from the three arrays of section 4.4, whose markers must agree with it.
 
         Parameters

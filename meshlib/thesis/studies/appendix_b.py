@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 
 from ... import Mesh, criteria, delaunay, problems
-from ...interpolation.interpolant import squared_errors
+from ...interpolation.on_elements import squared_errors
 from ...optima.enumeration import enumerated
 from ...optima.many_orders import LocalOptima, local_optima, order_of
 from ...optima.proved import Optimal, optimal
