@@ -9,7 +9,7 @@ from statistics import median
 from cases import KINDS
 
 from meshlib import plotting
-from meshlib.thesis.tables.numbered import grid, markdown
+from meshlib.thesis.tables.markup import grid, markdown
 
 RESULTS = Path(__file__).with_name("results.json")
 MILLION = 1_000_000
@@ -255,4 +255,4 @@ def _curves(ax, measure, kind):
         )
     ax.set(xscale="log", yscale="log")
     ax.spines[["top", "right"]].set_visible(False)
-    ax.grid(True, color=plotting.look.FAINT, linewidth=0.5)
+    ax.grid(True, color=plotting.FAINT, linewidth=0.5)

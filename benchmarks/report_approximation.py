@@ -6,7 +6,7 @@ from report import results, sentence, verdict
 
 from meshlib import plotting
 from meshlib.thesis.studies.section_7_7a_limit import ZIGZAG
-from meshlib.thesis.tables.numbered import grid, markdown
+from meshlib.thesis.tables.markup import grid, markdown
 
 RATES = {"B": 1, "K": 2}  # of the error in the number of nodes, by the constant of a function
 EQUAL = "x² + y²", "x² − y²"  # curved alike everywhere

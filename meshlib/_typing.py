@@ -1,7 +1,7 @@
 """Names for the types that signatures share."""
 
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,4 +13,44 @@ Function: TypeAlias = Callable[..., Any]  # a vectorised u(x, y)
 Values: TypeAlias = ArrayLike | Function  # nodal values, or the function that has them
 Norm: TypeAlias = int | float | str  # 1, 2, inf, "L1", "L2", "max" or "lexicographic"
 
-__all__ = ["ArrayLike", "BoolArray", "FloatArray", "Function", "IntArray", "NDArray", "Norm", "Values"]
+
+class AnyMesh(Protocol):
+    """What the modules below `meshlib.mesh.mesh` ask of a mesh; see `meshlib.Mesh` for the shapes."""
+
+    @property
+    def nodes(self) -> FloatArray: ...
+    @property
+    def elements(self) -> IntArray: ...
+    @property
+    def green(self) -> IntArray: ...
+    @property
+    def n_nodes(self) -> int: ...
+    @property
+    def n_elements(self) -> int: ...
+    @property
+    def edges(self) -> IntArray: ...
+    @property
+    def element_edges(self) -> IntArray: ...
+    @property
+    def edge_elements(self) -> IntArray: ...
+    @property
+    def neighbours(self) -> IntArray: ...
+    @property
+    def boundary(self) -> BoolArray: ...
+    @property
+    def boundary_nodes(self) -> BoolArray: ...
+    @property
+    def corners(self) -> FloatArray: ...
+
+
+__all__ = [
+    "AnyMesh",
+    "ArrayLike",
+    "BoolArray",
+    "FloatArray",
+    "Function",
+    "IntArray",
+    "NDArray",
+    "Norm",
+    "Values",
+]

@@ -1,9 +1,13 @@
 """Meshes made for a known function: what must hold after every step, and how near the limit they come."""
 
+import inspect
 import os
+import re
 import signal
 import subprocess
 import sys
+from dataclasses import FrozenInstanceError, fields, replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,14 +17,18 @@ from hypothesis import strategies as st
 from support import lattice
 
 from meshlib import Interpolant, Interrupted, Mesh, MeshError, approximate, delaunay, problems, refined
-from meshlib.approximation import node_count, samples, strategy
-from meshlib.approximation.division import bisect, divide
-from meshlib.approximation.error_integrals import Misfit, half_slopes, powers, rule
-from meshlib.approximation.moves import _Sweep, move
+from meshlib.approximation import node_count, samples, settings, strategy
+from meshlib.approximation.approximate import UNIT_SQUARE, Task
+from meshlib.approximation.collapse import collapsed, settled_on_boundary
+from meshlib.approximation.division import bisected, divided
+from meshlib.approximation.error_integrals import Counted, Misfit, half_slopes, powers, rule
+from meshlib.approximation.insertion import inserted
+from meshlib.approximation.moves import _Sweep, moved
 from meshlib.approximation.one_direction import in_turn
 from meshlib.approximation.patches import _curvature
+from meshlib.approximation.settings import NodeCount, OneDirection, Rounds, Settings
 from meshlib.approximation.start_mesh import regular
-from meshlib.approximation.swaps import swap
+from meshlib.approximation.swaps import swapped
 from meshlib.approximation.working_mesh import Draft
 from meshlib.mesh.boundary_sides import CORNER, INTERIOR, sides_of
 from meshlib.mesh.quality import angles
@@ -54,7 +62,7 @@ def finely(u_h):
 
 
 def draft_of(function, mesh):
-    return Draft(Misfit(function, 1 / 40), mesh)
+    return Draft.of(Misfit(Counted(function), 1 / 40), mesh)
 
 
 def objective(draft):
@@ -67,29 +75,84 @@ def objective(draft):
 @pytest.mark.parametrize("domain", ["square", "ring"])
 def test_every_step_leaves_a_valid_mesh_that_interpolates(domain, ring, rng):
     mesh = ring if domain == "ring" else delaunay(scattered(rng, 20))
-    draft, seen = draft_of(front, mesh), []
-
-    def note(step):
+    seen = set()
+    for step, draft in strategy.strategy(draft_of(front, mesh), 150):
         draft.mesh.validate()
         assert draft.mesh.domain_area == pytest.approx(mesh.domain_area, rel=1e-12)
         assert np.array_equal(draft.values, front(*draft.nodes.T))
         u_h = Interpolant(draft.mesh, draft.values)
         assert draft.error == pytest.approx(finely(u_h).l2_error(front, rule="exact", degree=12), rel=5e-3)
-        seen.append(step)
-
-    strategy.strategy(draft, 150, note)
+        seen.add(step)
     assert draft.n_nodes == 150
-    assert set(seen) == {"grown", "moved", "renewed"}
+    assert seen == {"grown", "moved", "renewed"}
+
+
+OPERATIONS = [
+    swapped,
+    moved,
+    divided,
+    settled_on_boundary,
+    strategy.improved,
+    lambda draft: inserted(draft, 10),
+    lambda draft: bisected(draft, 10),
+    lambda draft: collapsed(draft, 0.2),
+    lambda draft: draft.measured(4),
+    lambda draft: draft.measured_finely(2),
+]
+
+
+def contents(thing):
+    """All that a draft holds, down to arrays and numbers, by the way to it."""
+    if hasattr(thing, "__dict__") and not isinstance(thing, (type, Counted)):
+        return {(k, *way): v for k, part in vars(thing).items() for way, v in contents(part).items()}
+    return {(): np.array(thing) if isinstance(thing, np.ndarray) else thing}
+
+
+@pytest.mark.parametrize("operation", OPERATIONS)
+def test_no_operation_changes_what_the_draft_before_it_holds(operation, rng):
+    """So a draft that is kept is a complete snapshot, whatever attributes it may have one day."""
+    nodes = np.concatenate([scattered(rng, 80), [[0.5, 0.02]]])  # the last may be put on the boundary
+    draft = draft_of(lambda x, y: front(x, y) / 8, delaunay(nodes))
+    before = contents(draft)
+    after = operation(draft)
+    held = contents(draft)
+    assert {way[0] for way in before} == {field.name for field in fields(Draft)}
+    assert all(np.array_equal(held[way], value) for way, value in before.items())
+    assert not all(np.array_equal(contents(after).get(way), value) for way, value in before.items())
+
+
+def test_a_draft_is_read_only(rng):
+    draft = draft_of(front, delaunay(scattered(rng, 8)))
+    with pytest.raises(FrozenInstanceError):
+        draft.values = draft.values + 1
+    arrays = [array for array in vars(draft).values() if isinstance(array, np.ndarray)]
+    assert len(arrays) == 4 and not any(array.flags.writeable for array in arrays)
+
+
+def test_a_function_may_return_an_array_that_it_keeps():
+    mesh = delaunay(lattice(3, 3) / 3)
+    kept = front(*mesh.nodes.T)
+    Draft.of(Misfit(Counted(lambda x, y: kept if len(x) == 16 else front(x, y)), 1 / 40), mesh)
+    assert kept.flags.writeable
+
+
+def test_rounds_of_renewal_go_on_with_the_best_draft_met(rng):
+    draft = draft_of(front, delaunay(scattered(rng, 80)))
+    met, rounds = [draft], strategy.renewed_in_rounds(draft, draft.n_nodes, 4)
+    with pytest.raises(StopIteration) as end:
+        while True:
+            step, draft = next(rounds)
+            met += [draft] if step == "moved" else []
+    assert len(met) == 5 and {draft.n_nodes for draft in met} == {96}
+    assert end.value.value is min(met, key=objective)
 
 
 def test_moves_and_swaps_never_raise_the_error(rng):
     draft = draft_of(front, delaunay(scattered(rng, 80)))
-    before = objective(draft)
-    for change in (swap, move, swap, move, swap):
-        assert change(draft) > 0
-        assert objective(draft) < before
-        before = objective(draft)
-    assert swap(draft) == 0
+    for change in (swapped, moved, swapped, moved, swapped):
+        before, draft = draft, change(draft)
+        assert objective(draft) < objective(before)
+    assert swapped(draft).mesh is draft.mesh
 
 
 def test_corners_stay_and_holes_stay_open(ring):
@@ -113,7 +176,7 @@ import numpy as np
 from meshlib import approximate, problems
 for norm in ("L2", "max"):
     for name in ("franke", "DD1"):
-        found = approximate(problems.functions[name], 60, norm=norm).mesh
+        found = approximate(problems.functions[name], nodes=60, norm=norm).mesh
         print(found.nodes.tobytes().hex(), found.elements.tobytes().hex())
 """
 
@@ -159,20 +222,29 @@ def test_no_angle_below_the_limit_and_all_nodes_there_are(function, angle):
 
 
 def test_bisections_leave_angles_as_they_were():
-    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever made."""
-    draft = Draft(Misfit(front, 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
+    """Halves of halves of a square are right triangles with two angles of 45 degrees, wherever they lie."""
+    draft = Draft.of(Misfit(Counted(front), 1 / 40, np.radians(30)), delaunay(lattice(3, 3) / 3))
     while draft.n_nodes < 200:
-        before = draft.n_nodes
-        assert 0 < bisect(draft, 200 - before) == draft.n_nodes - before
+        before, draft = draft, bisected(draft, 200 - draft.n_nodes)
+        assert before.n_nodes < draft.n_nodes <= 200
     draft.mesh.validate()
     assert np.degrees(angles(draft.mesh.corners)).min() == pytest.approx(45)
 
 
 def test_an_element_that_would_be_refused_has_an_error_where_a_mesh_has_it():
     corners, values = np.array([[[0.0, 0], [1, 0], [0.5, 1e-6]]]), np.zeros((1, 3))
-    misfit = Misfit(lambda x, y: 1 + 0 * x, 1 / 40)
+    misfit = Misfit(Counted(lambda x, y: 1 + 0 * x), 1 / 40)
     assert misfit.on_elements(corners, values) == [np.inf]
     assert misfit.on_elements(corners, values, is_new=False) == pytest.approx(5e-7)
+
+
+def test_another_power_or_a_finer_quadrature_leaves_the_misfit_of_others_as_it_is():
+    misfit = Misfit(Counted(lambda x, y: front(x, y) / 8), 1 / 40)
+    draft = Draft.of(misfit, delaunay(lattice(3, 3) / 3))
+    other = draft.measured(4).measured_finely(2)
+    assert (other.misfit.squarings, other.misfit.spacing) == (4, 1 / 80) and other.misfit.unit < 1
+    assert draft.misfit is misfit and misfit == Misfit(misfit.function, 1 / 40)
+    assert np.array_equal(draft.error_of(draft.elements), draft.errors)
 
 
 def test_the_history_tells_every_step():
@@ -213,16 +285,15 @@ def test_a_function_of_one_direction_gets_three_quarters_of_the_error_of_strips(
 
 
 def test_nodes_in_turn_in_figures():
-    """Of u = x^2, elements over two spacings h have d = 2 (h^2, h^2, 4 h^2).
+    """Errors of u = x^2 are as the roots of 54 and 96, of sum d^2 + (sum d)^2.
 
-    Those of strips have d = 2 (0, 4h^2, 4h^2).
-    The errors are as the roots of sum d^2 + (sum d)^2: of 54 and 96.
+    Elements over two spacings h have d = 2 (h^2, h^2, 4 h^2), those of strips d = 2 (0, 4h^2, 4h^2).
     """
 
     def u(x, y):
         return x**2
 
-    mesh = in_turn(u, np.zeros(2), np.ones(2), 402)
+    mesh = in_turn(u, np.zeros(2), np.ones(2), 402, 2, OneDirection())
     error = Interpolant(mesh, u).l2_error(u, rule="exact")
     assert error / (2 * np.sqrt(6 / 720) / 200**2) == pytest.approx(0.75, rel=0.02)
 
@@ -232,14 +303,16 @@ def test_nodes_in_turn_in_figures():
 @pytest.mark.parametrize("nodes", [12, 13, 60])
 def test_nodes_in_turn_in_any_direction_and_rectangle(direction, low, high, nodes):
     low, high = np.array(low, float), np.array(high, float)
-    mesh = in_turn(lambda x, y: np.cos(direction[0] * x + direction[1] * y), low, high, nodes)
+    mesh = in_turn(
+        lambda x, y: np.cos(direction[0] * x + direction[1] * y), low, high, nodes, 2, OneDirection()
+    )
     assert mesh.validate().counts == (nodes, 2 * nodes - 3, nodes - 2)
     assert mesh.domain_area == pytest.approx(np.prod(high - low))
 
 
 @pytest.mark.parametrize("function", [front, lambda x, y: x + 2 * y, lambda x, y: 0 * x, lambda x, y: x * y])
 def test_other_functions_and_planes_get_no_such_mesh(function):
-    assert in_turn(function, np.zeros(2), np.ones(2), 50) is None
+    assert in_turn(function, np.zeros(2), np.ones(2), 50, 2, OneDirection()) is None
 
 
 @pytest.mark.parametrize("nodes", [155, 160, 165])
@@ -282,7 +355,7 @@ def test_the_largest_error_of_large_and_small_functions(factor):
 
 @pytest.mark.parametrize("norm, error", [("L2", 0.21082 / 162), ("max", 1 / 324)])
 def test_of_a_saddle_no_mesh_is_better_than_a_lattice(norm, error):
-    """Of x^2 - y^2 with spacings h: L2 error h^2 / sqrt(90), the limit itself, and largest error h^2 / 4."""
+    """With spacings h, x^2 - y^2 has an L2 error of h^2 / sqrt(90), the limit, and a largest of h^2 / 4."""
     found = approximate(problems.functions["hyperbolic"], nodes=100, norm=norm)
     assert found.mesh.validate().counts == (100, 261, 162)
     assert found.error == pytest.approx(error, rel=1e-4)
@@ -320,7 +393,7 @@ def test_divided_elements_are_a_valid_mesh_with_a_smaller_error(seed):
     rng = np.random.default_rng(seed)
     draft = draft_of(lambda x, y: np.exp(x + y), delaunay(scattered(rng, 12)))
     nodes, edges, before = draft.n_nodes, draft.mesh.n_edges, draft.error
-    assert divide(draft)
+    draft = divided(draft)
     assert nodes < draft.mesh.validate().n_nodes <= nodes + edges
     assert draft.error < before and draft.mesh.domain_area == pytest.approx(1)
     assert np.array_equal(draft.side != INTERIOR, draft.mesh.boundary_nodes)
@@ -331,7 +404,7 @@ def test_a_mesh_without_an_error_is_not_divided_but_once(rng):
     mesh = delaunay(lattice(8, 8) / 8)
     draft = draft_of(lambda x, y: np.maximum(x - 0.5, 0) ** 2, mesh)
     flat = mesh.nodes[mesh.elements].max(axis=1)[:, 0] <= 0.5
-    divide(draft)
+    draft = divided(draft)
     left = draft.mesh.nodes[draft.mesh.elements].max(axis=1)[:, 0] <= 0.5
     assert flat.sum() == 64 and 64 <= left.sum() <= 64 + 8 * 4 and draft.mesh.n_elements > 256
 
@@ -359,7 +432,9 @@ def test_features_between_the_nodes_are_seen():
     def bump(x, y):
         return np.exp(-((x - 0.61) ** 2 + (y - 0.37) ** 2) / 0.02**2)
 
-    error = Misfit(bump, 1 / 40).on_elements(np.array([[[0.0, 0], [1, 0], [1, 1]]]), np.zeros((1, 3)))
+    error = Misfit(Counted(bump), 1 / 40).on_elements(
+        np.array([[[0.0, 0], [1, 0], [1, 1]]]), np.zeros((1, 3))
+    )
     assert error[0] == pytest.approx(np.pi * 0.02**2 / 2, rel=0.01)
 
 
@@ -384,6 +459,33 @@ def test_sides_of_a_domain_with_a_hole(ring):
         assert len({*sides.of_node[pair]}) == 1 and sides.of_node[pair[0]] >= 0
     assert (sides.of_node[[0, 3, 12, 15, 5, 6, 9, 10]] == CORNER).all()
     assert (sides_of(delaunay(lattice(2, 2))).of_node == INTERIOR).sum() == 1
+
+
+# -- settings --------------------------------------------------------------------------------------
+
+
+def test_settings_cannot_be_changed_and_each_has_its_meaning_beside_it():
+    with pytest.raises(FrozenInstanceError):
+        Settings().moves.probe = 1
+    lines = inspect.getsource(settings).splitlines()
+    numbers = [line for line in lines if re.match(r"    \w+: (int|float|tuple)", line)]
+    assert len(numbers) == sum(len(fields(section.default)) for section in fields(Settings))
+    assert all(re.search(r"  # \w+.{10}", line) for line in numbers)
+
+
+def test_every_setting_is_read_somewhere():
+    package = Path(settings.__file__).parent
+    code = "".join(file.read_text() for file in package.glob("*.py") if file.name != "settings.py")
+    names = {number.name for section in fields(Settings) for number in fields(section.default)}
+    assert {name for name in names if not re.search(rf"\.{name}\b", code)} == set()
+
+
+def test_settings_reach_the_mesh():
+    task = Task(front, UNIT_SQUARE, 0.0, "L2", 0, False)
+    assert task.with_nodes(40).mesh.equals(approximate(front, nodes=40).mesh)
+    still = replace(task, settings=Settings(rounds=Rounds(main=0, early=0, last_moves=0)))
+    steps = still.with_nodes(40).history["step"].tolist()
+    assert steps == ["grown", "moved"] * 2 + ["compared", "measured"]
 
 
 # -- bad input, interrupts -------------------------------------------------------------------------
@@ -451,13 +553,13 @@ def test_the_least_number_is_found_whatever_the_order_of_convergence(order, enou
         tried.append(nodes)
         return SimpleNamespace(nodes=nodes, error=nodes**-order)
 
-    found = node_count.least(trial, enough**-order * (1 + 1e-12), 4, 200_000)
+    found = node_count.least(trial, enough**-order * (1 + 1e-12), 4, NodeCount())
     assert enough <= found.nodes <= max(enough, 1.02 * enough)
     assert len(tried) <= 15
 
 
 def test_a_tolerance_out_of_reach_is_told():
-    assert node_count.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, 1000) is None
+    assert node_count.least(lambda nodes: SimpleNamespace(error=1.0), 0.5, 4, NodeCount(most=1000)) is None
 
 
 def test_samples_on_a_grid_are_bilinear_between():
@@ -508,7 +610,7 @@ def test_what_cannot_be_asked(arguments, message):
 @pytest.mark.parametrize("squarings", [1, 4])
 def test_the_slope_of_the_error_of_a_patch_is_its_derivative(squarings, rng):
     draft = draft_of(FRANKE, delaunay(scattered(rng, 200)))
-    draft.measure(squarings)
+    draft = draft.measured(squarings)
     sweep = _Sweep(draft)
     nodes = next(sweep.classes())
     nodes = nodes[draft.side[nodes] == INTERIOR]

@@ -5,12 +5,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshlib.support.random_numbers import Draws
+from meshlib.support import random_numbers
+from meshlib.support.random_numbers import Draws, permutation
 
 # The first 64 random bits of PCG64(1), and the 53 uppermost of them divided by 2^53.
 RAW = [9441442522235856127, 17532960557476522086, 2659275481604167885]
 UNIFORM = [0.5118216247002567, 0.9504636963259353, 0.14415961271963373]
 EXPONENTIAL = [0.7170744167610924, 3.0050494706625277, 0.15567138368438282]  # -log(1 - u)
+
+PERMUTED = [7, 2, 3, 4, 9, 6, 8, 0, 1, 5]  # Draws([3, 4]).permutation(10)
 
 
 class Bits:
@@ -65,3 +68,32 @@ def test_as_likely_as_they_should_be():
     assert len(counts) == faces and np.abs(counts - n / faces).max() < 5 * np.sqrt(n * 5 / 36)
     waits = Draws(0).exponential(n)
     assert abs(waits.mean() - 1) < 5 / np.sqrt(n) and abs((waits > 1).mean() - np.exp(-1)) < 2.5 / np.sqrt(n)
+
+
+def test_first_permutations():
+    assert Draws([0, 1]).permutation(5).tolist() == [1, 4, 3, 0, 2]
+    assert Draws(1).permutation(10).tolist() == [8, 4, 7, 0, 1, 2, 5, 9, 6, 3]
+    assert Draws([3, 4]).permutation(10).tolist() == PERMUTED
+    assert [Draws(1).permutation(n).tolist() for n in (0, 1)] == [[], [0]]
+
+
+@pytest.mark.parametrize("n", [*range(2, 70), 88, 208, 344, 1023, 1024, 1025, 3000, 65_537])
+def test_permutations_are_those_of_numpy_2(n):
+    """Of NumPy 2.0 to 2.4 at least; if this fails with a newer one, `permutation` still gives the old ones."""
+    for seed in (0, 1, [0, n], [7, 123_456_789_012]):
+        expected = np.random.default_rng(seed).permutation(n)
+        found = Draws(seed).permutation(n)
+        assert found.dtype == expected.dtype and found.tolist() == expected.tolist()
+
+
+@pytest.mark.parametrize("agrees", [True, False])
+def test_permutations_do_not_hang_on_numpy(monkeypatch, agrees):
+    monkeypatch.setattr(random_numbers, "_numpy_agrees", lambda n: agrees)
+    assert permutation([3, 4], 10).tolist() == PERMUTED
+
+
+def test_other_permutations_of_numpy_are_not_taken(monkeypatch):
+    monkeypatch.setattr(random_numbers, "_by_numpy", lambda seed, n: np.arange(n))
+    random_numbers._numpy_agrees.cache_clear()
+    assert permutation([3, 4], 10).tolist() == PERMUTED
+    random_numbers._numpy_agrees.cache_clear()

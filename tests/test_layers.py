@@ -1,16 +1,20 @@
 """The layers of the package: imports lead downwards only, and CONTRIBUTING names every module."""
 
 import ast
+import importlib
 import re
+import types
 from functools import cache
 from pathlib import Path
 
 import pytest
 
+import meshlib
+
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "meshlib"
-PRIVATE_PACKAGES = ("kernels", "support", "_typing", "approximation")  # a user needs none of their modules
 TOP = ("meshlib",)
+ENTRY_POINTS = ("__main__",)  # they may use everything
 
 
 def module_of(path):
@@ -70,8 +74,13 @@ def room_of(name):
     return "/".join(name[1:deep]) or "meshlib"
 
 
+def has_room(name):
+    """Whether a module stands in the table: not the packages that only hold others, nor entry points."""
+    return room_of(name) not in ("meshlib", "thesis") and name[-1] not in ENTRY_POINTS
+
+
 def test_every_module_has_a_room_and_every_room_is_there():
-    rooms = {room_of(name) for name in modules() if room_of(name) not in ("meshlib", "thesis")}
+    rooms = {room_of(name) for name in modules() if has_room(name)}
     assert rooms == {name for name in layers() if name not in ("notebooks", "benchmarks", "book")}
 
 
@@ -80,8 +89,8 @@ def test_imports_lead_downwards():
         (".".join(a), ".".join(b))
         for a, b in imports()
         if room_of(a) != room_of(b)
-        and TOP not in (a, b)
-        and "thesis" not in (room_of(a), room_of(b))
+        and has_room(a)
+        and has_room(b)
         and layers()[room_of(a)] <= layers()[room_of(b)]
     }
     assert upward == set()
@@ -120,14 +129,19 @@ def test_a_circle_and_an_upward_arrow_would_be_found():
 
 @pytest.mark.parametrize("name", sorted(".".join(n) for n in modules() if is_package(n)))
 def test_no_name_hides_a_module(name):
-    import importlib
-    import types
-
     package = importlib.import_module(name)
     for path in ROOT.joinpath(*name.split(".")).glob("*.py"):
         if path.stem not in ("__init__", "__main__"):
             importlib.import_module(f"{name}.{path.stem}")
             assert isinstance(getattr(package, path.stem), types.ModuleType), f"{name}.{path.stem}"
+
+
+def test_a_file_at_the_top_is_public_or_says_that_it_is_not():
+    """`errors` is public by its classes; `checks` belongs to no package since all of them use it."""
+    files = {path.stem for path in PACKAGE.glob("*.py")}
+    assert {name for name in files if not name.startswith("_")} - set(meshlib.__all__) == {"checks", "errors"}
+    kinds = {name for name in vars(meshlib.errors) if name.endswith("Error") or name == "Interrupted"}
+    assert kinds <= set(meshlib.__all__)
 
 
 def test_the_top_of_the_package_is_small():

@@ -7,16 +7,11 @@ from meshlib import Interpolant, combined, delaunay, problems, refined
 from meshlib.mesh.quality import angles
 from meshlib.refinement.marking import MARKS
 from meshlib.refinement.splitting import SPLITS
-from meshlib.thesis.studies import (
-    section_7_1_splittings as splittings,
-)
-from meshlib.thesis.studies import (
-    section_7_2_boundaries as boundaries,
-)
-from meshlib.thesis.studies import (
-    section_7_5_combining as combining,
-)
+from meshlib.thesis.studies import section_7_1_splittings as splittings
+from meshlib.thesis.studies import section_7_2_boundaries as boundaries
+from meshlib.thesis.studies import section_7_5_combining as combining
 from meshlib.thesis.studies.section_7_1_splittings import AIM, MOST_NODES, Rounds, rounds
+from meshlib.thesis.tables import section_7_1, section_7_2, section_7_5
 
 
 def rows(table):
@@ -99,7 +94,7 @@ def test_a_red_element_takes_its_neighbours_along():
 
 def test_the_tables_of_7_1(monkeypatch):
     monkeypatch.setattr(splittings, "FUNCTIONS", ("SR1",))
-    needed = rows(splittings.table_needed())
+    needed = rows(section_7_1.needed())
     assert [row[:2] for row in needed] == [["SR1", "red-green"], ["", "centroid"], ["", "longest-edge"]]
     for row in needed:
         for mark, cell in zip(splittings.MARKINGS, row[2:], strict=True):
@@ -107,7 +102,7 @@ def test_the_tables_of_7_1(monkeypatch):
             assert cell.startswith("(") == np.isnan(found.needed)
             value = 100 * found.errors[-1] / found.errors[0] if cell.startswith("(") else found.needed
             assert float(cell.strip("()")) == pytest.approx(value, rel=6e-3)
-    reasons = rows(splittings.table_reasons())
+    reasons = rows(section_7_1.reasons())
     assert [row[4] for row in reasons] == [
         f"{rounds('SR1', split, 'element').mean_largest_angle:.0f}°" for split in SPLITS
     ]
@@ -136,13 +131,13 @@ def test_the_limits_in_closed_form():
 
 
 def test_the_table_of_measures_knows_the_sum_of_valences():
-    for name, n_nodes, n_elements, *_, mean, most in rows(boundaries.table_measures()):
+    for name, n_nodes, n_elements, *_, mean, most in rows(section_7_2.measures()):
         assert float(mean) == pytest.approx(3 * int(n_elements) / int(n_nodes), abs=6e-4), name
         assert int(most) >= float(mean)
 
 
 def test_the_table_of_areas_ends_with_the_limits():
-    found = [float(row[-1]) for row in rows(boundaries.table_lost())]
+    found = [float(row[-1]) for row in rows(section_7_2.lost())]
     assert found == pytest.approx(
         [v for name in boundaries.CURVES for v in boundaries.limits(name).values()], abs=6e-3
     )
@@ -154,7 +149,7 @@ def test_the_error_along_the_boundary_tends_to_its_limit():
     limit = boundaries.missed_limit("trefoil", "SR1")
     assert by_data[-1] == pytest.approx(limit, rel=0.02) and (np.diff(by_data) < 0).all()
     assert even[-1] > 45 * limit
-    (first, second) = rows(boundaries.table_missed())
+    (first, second) = rows(section_7_2.missed())
     assert [float(cell) for cell in first[1:]] == pytest.approx([*by_data, limit], abs=6e-4)
     assert [float(cell) for cell in second[1:-1]] == pytest.approx(even, abs=6e-4)
 
@@ -163,7 +158,7 @@ def test_the_error_along_the_boundary_tends_to_its_limit():
 
 
 def test_the_table_of_the_cycle():
-    assert rows(combining.table_cycle()) == [
+    assert rows(section_7_5.cycle()) == [
         ["left out", "swap around node 4", "2.86", "9.50", "7.68"],
         ["", "swap around node 5", "2.43", "7.68", "9.50"],
         ["counted", "swap around node 4", "1.82", "9.50", "7.68"],
@@ -173,7 +168,7 @@ def test_the_table_of_the_cycle():
 
 def test_the_table_of_errors(monkeypatch):
     monkeypatch.setattr(combining, "FUNCTIONS", ("SR1",))
-    ((_, start, swapped, moved, in_turn, both, free, flat),) = rows(combining.table_errors())
+    ((_, start, swapped, moved, in_turn, both, free, flat),) = rows(section_7_5.errors())
     assert float(start) > float(swapped) > float(moved) > float(both) >= float(in_turn) > float(free)
     few, all_of_them = map(int, flat.split(" of "))
     assert all_of_them / 2 <= few <= all_of_them  # where nothing moves, what cannot be mended is made thin
@@ -183,7 +178,7 @@ def test_the_table_of_errors(monkeypatch):
 
 def test_the_table_of_gains(monkeypatch):
     monkeypatch.setattr(combining, "POWERS", (1, 2, 3))
-    found = rows(combining.table_gains())
+    found = rows(section_7_5.gains())
     steps, errors = ([float(row[k]) for row in found] for k in (1, 3))
     assert steps == sorted(steps) and errors == sorted(errors, reverse=True)
     assert all(n <= 10**power for n, power in zip(steps, (1, 2, 3), strict=True))

@@ -145,7 +145,7 @@ def test_a_search_goes_on_where_it_stopped(tmp_path, monkeypatch):
     assert done == [(1, 2), (1, 3), (1, 4)]
     assert search.search("SR1-33-ABN-L2", "command", seed=2, tasks=1, **arguments) is None
     assert done[3:] == [(2, 0)]
-    monkeypatch.setattr(walk, "STEPS", 20)  # another way to search begins anew
+    monkeypatch.setattr(walk, "STEPS", 20)  # other settings start again at the first task
     assert search.search("SR1-33-ABN-L2", "command", tasks=1, **arguments) is None
     assert done[4:] == [(1, 0)]
 

@@ -6,6 +6,7 @@ runs scripts, the explorer of that name takes its place.
 
 import base64
 import gzip
+import json
 from pathlib import Path
 
 import joblib
@@ -17,36 +18,36 @@ from meshlib.thesis.explorers import ALL
 TAG = "tag_explorer-"
 SCRIPT, STYLES, FOLDER = "explorers.js", "explorers.css", "explorers"
 WIDGETS = "application/vnd.jupyter.widget-state+json"  # longer than all the rest of a page
-SLOW = ("approximation",)  # seconds for each state, so that all cores share them
-FIRST = 100  # of the scripts; those of Sphinx have 200
-LAST = 900  # of the listeners, once others have added their scripts
+SLOW = ("approximation",)  # explorers whose states take seconds each, so that all cores share them
+FIRST = 100  # priority of the scripts, before those of Sphinx, which have 200
+LAST = 900  # priority of the listener, after those that add other scripts
+EVERY = tuple(ALL.values())
 logger = logging.getLogger(__name__)
 
 
-def write(folder, names=tuple(ALL)):
-    """Write scripts, styles and states of some explorers into the folder of static files."""
+def write(folder, explorations=EVERY):
+    """Write the scripts and styles of explorers, and the states of some, into the folder of static files."""
     folder = Path(folder)
     (folder / FOLDER).mkdir(parents=True, exist_ok=True)
     (folder / SCRIPT).write_text(scripts.classic(), encoding="utf-8")
     (folder / STYLES).write_text(scripts.styles(), encoding="utf-8")
-    for name in names:
+    for exploration in explorations:
+        name = exploration.name
         logger.info("computing the states of the explorer %r", name)
-        pages = atlas.pages(ALL[name], parallel if name in SLOW else map)
-        # mtime: the same states make the same file
-        packed = base64.b64encode(gzip.compress(pages, mtime=0)).decode()
+        pages = atlas.pages(exploration, parallel if name in SLOW else map)
+        # without the time, so that equal states make equal files
+        item = json.dumps([name, base64.b64encode(gzip.compress(pages, mtime=0)).decode()])
         # A script and not data, since pages opened from a file may load nothing else.
-        (folder / FOLDER / f"{name}.js").write_text(
-            f'(window.meshExplorers ||= []).push(["{name}", "{packed}"]);\n'
-        )
+        (folder / FOLDER / f"{name}.js").write_text(f"(window.meshExplorers ||= []).push({item});\n")
 
 
 def parallel(function, items):
-    """As `map`, on all cores."""
+    """Like `map`, on all cores."""
     return joblib.Parallel(n_jobs=-1, return_as="generator")(map(joblib.delayed(function), items))
 
 
 def write_all(app):
-    """Write all of it before the pages are made."""
+    """Write the files of all explorers before the pages are made."""
     if app.builder.format == "html":
         write(Path(app.outdir) / "_static")
 

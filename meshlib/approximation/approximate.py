@@ -1,7 +1,6 @@
 """The mesh for a known function: nodes in, the best piecewise linear function out."""
 
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -13,18 +12,16 @@ from ..interpolation.record import Record
 from ..mesh.boundary_sides import sides_of
 from ..mesh.mesh import Mesh
 from ..support.progress import Watch
-from .error_integrals import Misfit
+from .error_integrals import Counted, Misfit
 from .node_count import least
 from .one_direction import in_turn
 from .samples import Samples
-from .start_mesh import corners, fit, regular, start
-from .strategy import LAST_MOVES, SQUARINGS, polish, steps, strategy
+from .settings import Settings
+from .start_mesh import corners, fitted, regular, start
+from .strategy import most_steps, polished, strategy
 from .working_mesh import Draft
 
 UNIT_SQUARE = ((0.0, 0.0), (1.0, 1.0))
-RESOLUTION = 40  # spacings along a square as large as the domain, in which features are looked for
-FINER = 4  # times as many for the error of what was found
-FEWEST, MOST_NODES = 4, 200_000  # nodes between which a tolerance is sought
 LARGEST_MIN_ANGLE = 30.0
 NORMS = {2: "L2", "max": "max"}
 STEP = np.dtype(
@@ -170,7 +167,7 @@ def approximate(
     angle = checks.number(min_angle or 0, "min_angle", 0, LARGEST_MIN_ANGLE + 1e-9, "degrees from 0 to 30")
     function = function if callable(function) else Samples(function, *_box(domain))
     norm = NORMS[norms.checked(norm, tuple(NORMS))]
-    task = _Task(function, domain, float(np.radians(angle)), norm, seed, progress)
+    task = Task(function, domain, float(np.radians(angle)), norm, seed, progress)
     if (nodes is None) == (tolerance is None):
         raise InvalidInputError("nodes", f"nodes is {nodes} and tolerance is {tolerance}; give one of them")
     if tolerance is None:
@@ -179,7 +176,7 @@ def approximate(
 
 
 @dataclass(frozen=True)
-class _Task:
+class Task:
     """What is to be approximated, where and how."""
 
     function: object
@@ -188,21 +185,23 @@ class _Task:
     norm: str
     seed: int
     progress: bool
+    settings: Settings = Settings()
 
     def with_nodes(self, nodes):
-        """The mesh of so many nodes."""
-        first = start(self.domain, nodes, self.seed)
-        misfit = Misfit(self.function, float(np.sqrt(first.domain_area) / RESOLUTION), self.sharpest)
+        """The mesh with a given number of nodes."""
+        settings = self.settings
+        first = start(self.domain, nodes, self.seed, settings.start)
+        spacing = float(np.sqrt(first.domain_area) / settings.quadrature.resolution)
+        misfit = Misfit(Counted(self.function), spacing, self.sharpest, settings.quadrature)
         ridge = self._ridge(misfit, nodes)
         if ridge is not None:
-            draft = Draft(misfit, ridge, self.norm)
+            draft = Draft.of(misfit, ridge, self.norm, settings)
             if self.norm == "max":
-                draft.measure(SQUARINGS)
-            return self._run(draft, LAST_MOVES + 1, partial(polish, draft))
-        draft = Draft(misfit, first, self.norm)
-        fit(draft, nodes)
+                draft = draft.measured(settings.objective.squarings)
+            return self._run(polished(draft), settings.rounds.last_moves + 1)
+        draft = fitted(Draft.of(misfit, first, self.norm, settings), nodes)
         lattice = None if isinstance(self.domain, Mesh) else regular(self.domain, nodes)
-        return self._run(draft, steps(draft, nodes), partial(strategy, draft, nodes, regular=lattice))
+        return self._run(strategy(draft, nodes, lattice), most_steps(draft, nodes))
 
     def within(self, tolerance):
         """The mesh of about the fewest nodes whose error is within the tolerance."""
@@ -213,12 +212,13 @@ class _Task:
             spent.append(found.evaluations)
             return found
 
-        smallest = len(sides_of(start(self.domain, FEWEST, self.seed)).corners)
-        found = least(trial, tolerance, smallest, MOST_NODES)
+        settings = self.settings.node_count
+        coarsest = start(self.domain, settings.fewest, self.seed, self.settings.start)
+        found = least(trial, tolerance, len(sides_of(coarsest).corners), settings)
         if found is None:
             raise NotReachedError(
                 "tolerance",
-                f"the tolerance {tolerance} is not reached with {MOST_NODES} nodes; give a larger one",
+                f"the tolerance {tolerance} is not reached with {settings.most} nodes; give a larger one",
             )
         return replace(found, evaluations=sum(spent))
 
@@ -226,22 +226,17 @@ class _Task:
         """A mesh for a function of one direction, or None."""
         if isinstance(self.domain, Mesh) or self.sharpest:
             return None
-        power = 2 ** (SQUARINGS if self.norm == "max" else 1)
-        return in_turn(misfit.values, *corners(self.domain), nodes, power)
+        power = 2 ** (self.settings.objective.squarings if self.norm == "max" else 1)
+        return in_turn(misfit.values, *corners(self.domain), nodes, power, self.settings.one_direction)
 
-    def _run(self, draft, total, adapt):
+    def _run(self, steps, most_steps):
         history = []
-        with Watch(self.progress, total, "step") as watch:
-
-            def note(step):
+        with Watch(self.progress, most_steps, "step") as watch:
+            for step, draft in _and_measured(steps, self.settings.quadrature.final_refinement):
                 history.append((step, *_state(draft)))
                 watch.report(len(history))
                 if watch.stopped:
                     raise Interrupted(self._result(draft, history))
-
-            adapt(note)
-            draft.measure_finely(FINER)
-            note("measured")
         return self._result(draft, history)
 
     def _result(self, draft, history):
@@ -250,15 +245,21 @@ class _Task:
             draft.mesh,
             values,
             draft.error,
-            draft.misfit.evaluations,
+            draft.misfit.function.evaluations,
             np.array(history, dtype=STEP),
             self.seed,
             2 if self.norm == "L2" else "max",
         )
 
 
+def _and_measured(steps, refinement):
+    """The steps, and a last one that measures the error by a finer quadrature."""
+    draft = yield from steps
+    yield "measured", draft.measured_finely(refinement)
+
+
 def _state(draft):
-    return draft.n_nodes, len(draft.elements), draft.error, draft.misfit.evaluations
+    return draft.n_nodes, draft.n_elements, draft.error, draft.misfit.function.evaluations
 
 
 def _tolerance(tolerance):

@@ -5,37 +5,30 @@ import numpy as np
 from ..mesh.boundary_sides import CORNER, INTERIOR
 from ..support.independent import coarse, independent
 
-LOOKED_AT = 3  # nodes for each that is to be taken out
-FEWEST = 40  # nodes looked at in any case
-TOWARDS = 3  # neighbours for each of these
-NEAR = 0.1  # of a boundary edge: the height at which a node over it may be put on it
-BETWEEN = 0.05  # of the same: how far from its ends
 
-
-def collapse(draft, share):
-    r"""Draw the cheapest nodes, up to a share of all, into a neighbour; returns how many.
+def collapsed(draft, share):
+    r"""The draft with the cheapest nodes, up to a share of all, merged into a neighbour.
 
     ::
 
           *---*              *---*
          / \ / \            / \   \
         *---i---j    --->  *---\---j     the two elements at i-j vanish
-         \ / \ /            \ / \ /      (drawn: i goes into j)
+         \ / \ /            \ / \ /      (i is merged into j)
           *---*              *---*
     """
-    pairs, number = _Pairs(draft), int(share * draft.n_nodes)
-    pairs.keep_likely(draft, max(LOOKED_AT * number, FEWEST))
+    pairs, number, settings = _Pairs(draft), int(share * draft.n_nodes), draft.settings.removal
+    pairs.keep_likely(draft, max(int(settings.candidates * number), settings.fewest_candidates))
     cost, into = pairs.cheapest(draft)
     nodes = np.argsort(cost, kind="stable")[:number]
     nodes = nodes[np.isfinite(cost[nodes])]
     corner, row = draft.patches().of(nodes)
     chosen = nodes[independent(-cost[nodes], row, corner // 3, len(draft.elements))]
-    _draw(draft, chosen, into[chosen])
-    return len(chosen)
+    return _merged(draft, chosen, into[chosen])
 
 
 class _Pairs:
-    """All pairs (i, j) of a node that may go and a neighbour into which it may be drawn."""
+    """All pairs (i, j) of a node that may go and a neighbour into which it may be merged."""
 
     def __init__(self, draft):
         nodes = np.flatnonzero(draft.side != CORNER)
@@ -58,11 +51,11 @@ class _Pairs:
         worth[self.i[first]] = bent[first]
         few = np.zeros(draft.n_nodes, dtype=bool)
         few[np.argsort(worth, kind="stable")[:number]] = True
-        chosen = np.sort(order[(rank < TOWARDS) & few[self.i[order]]])
+        chosen = np.sort(order[(rank < draft.settings.removal.neighbours) & few[self.i[order]]])
         self.i, self.j = self.i[chosen], self.j[chosen]
 
     def cheapest(self, draft):
-        """For each node the least cost of drawing it into a neighbour, and that neighbour."""
+        """For each node the least cost of merging it into a neighbour, and that neighbour."""
         cost = self._costs(draft)
         order, rank = self._ranked(cost)
         first = order[rank == 0]
@@ -111,21 +104,27 @@ def beside(draft, nodes):
     return pairs[np.stack([first, first + 1], axis=1), 1]
 
 
-def _draw(draft, nodes, into):
-    """Take nodes out by drawing each into another."""
+def _merged(draft, nodes, into):
+    """The draft with each of some nodes merged into another."""
     target, gone = np.arange(draft.n_nodes), np.zeros(draft.n_nodes, dtype=bool)
     target[nodes], gone[nodes] = into, True
     rows = target[draft.elements]
     changed = (rows != draft.elements).any(axis=1)
     kept = (rows != np.roll(rows, 1, axis=1)).all(axis=1)
     number = (np.cumsum(~gone) - 1).astype(np.int32)
-    draft.nodes, draft.values, draft.side = draft.nodes[~gone], draft.values[~gone], draft.side[~gone]
-    draft.elements, draft.boundary = number[rows[kept]], draft.boundary.renumbered(number)
-    draft.settle(np.where(changed, np.nan, draft.errors)[kept], (draft.fresh | changed)[kept])
+    return draft.changed(
+        draft.nodes[~gone],
+        number[rows[kept]],
+        values=draft.values[~gone],
+        side=draft.side[~gone],
+        boundary=draft.boundary.renumbered(number),
+        errors=np.where(changed, np.nan, draft.errors)[kept],
+        fresh=(draft.fresh | changed)[kept],
+    )
 
 
-def settle_on_boundary(draft):
-    r"""Put nodes that all but lie on a boundary edge on it, where that lowers the error; returns how many.
+def settled_on_boundary(draft):
+    r"""The draft with nodes that almost lie on a boundary edge put on it, where that lowers the error.
 
     ::
 
@@ -137,14 +136,14 @@ def settle_on_boundary(draft):
     node = draft.elements[element].sum(axis=1) - ends.sum(axis=1)
     side = draft.boundary.of_edges(ends, draft.side)
     foot = draft.boundary.snapped(draft.nodes[node], side)
-    over = _is_near(draft.nodes[ends], draft.nodes[node], foot)
+    over = _is_near(draft.nodes[ends], draft.nodes[node], foot, draft.settings.removal)
     near = np.flatnonzero((draft.side[node] == INTERIOR) & over)
     gain, values = _gain(draft, node[near], element[near], ends[near], foot[near])
     better = gain > draft.little
     good = near[better]
     corner, row = draft.patches().of(node[good])
     chosen = independent(gain[better], row, corner // 3, len(draft.elements))
-    _put(
+    return _put(
         draft,
         node[good][chosen],
         element[good][chosen],
@@ -152,14 +151,14 @@ def settle_on_boundary(draft):
         values[better][chosen],
         side[good][chosen],
     )
-    return len(chosen)
 
 
-def _is_near(ends, point, foot):
+def _is_near(ends, point, foot, settings):
     along = ends[:, 1] - ends[:, 0]
     length = np.hypot(*along.T)
     share = ((foot - ends[:, 0]) * along).sum(axis=1) / length**2
-    return (np.hypot(*(point - foot).T) < NEAR * length) & (np.abs(share - 0.5) < 0.5 - BETWEEN)
+    is_between = np.abs(share - 0.5) < 0.5 - settings.from_ends
+    return (np.hypot(*(point - foot).T) < settings.near * length) & is_between
 
 
 def _gain(draft, node, element, ends, foot):
@@ -180,12 +179,19 @@ def _gain(draft, node, element, ends, foot):
 
 
 def _put(draft, node, element, foot, values, side):
+    """The draft with nodes put on boundary edges, and without the elements between."""
     if not len(node):
-        return
-    draft.nodes, draft.values, draft.side = draft.nodes.copy(), draft.values.copy(), draft.side.copy()
-    draft.nodes[node], draft.values[node], draft.side[node] = foot, values, side
-    kept = np.ones(len(draft.elements), dtype=bool)
+        return draft
+    nodes, all_values, sides = draft.nodes.copy(), draft.values.copy(), draft.side.copy()
+    nodes[node], all_values[node], sides[node] = foot, values, side
+    kept = np.ones(draft.n_elements, dtype=bool)
     kept[element] = False
     changed = np.isin(draft.elements, node).any(axis=1)
-    draft.elements = draft.elements[kept]
-    draft.settle(np.where(changed, np.nan, draft.errors)[kept], (draft.fresh | changed)[kept])
+    return draft.changed(
+        nodes,
+        draft.elements[kept],
+        values=all_values,
+        side=sides,
+        errors=np.where(changed, np.nan, draft.errors)[kept],
+        fresh=(draft.fresh | changed)[kept],
+    )

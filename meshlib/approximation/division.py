@@ -5,18 +5,17 @@ import numpy as np
 from ..mesh.boundary_sides import INTERIOR
 from ..refinement.splitting import SPLITS
 
-WORTH = 0.1  # of the mean error of an element, from which on it is divided
-ALONE = 50  # elements that are tried one by one
+
+def divided(draft):
+    """The draft with the elements that have an error to speak of divided, red-green."""
+    marked = np.flatnonzero(
+        draft.errors + draft.edge_errors() >= draft.settings.division.worthwhile * draft.errors.mean()
+    )
+    return _split(draft, *SPLITS["red-green"](draft.mesh, marked)[:3])
 
 
-def divide(draft):
-    """Divide the elements that have an error to speak of, red-green; returns whether any was divided."""
-    marked = np.flatnonzero(draft.errors + draft.edge_errors() >= WORTH * draft.errors.mean())
-    return _split(draft, *SPLITS["red-green"](draft.mesh, marked)[:3]) > 0
-
-
-def bisect(draft, most):
-    """Bisect elements of nearly the largest error at their longest edges; returns how many nodes are new.
+def bisected(draft, most):
+    """The draft with elements of nearly the largest error bisected at their longest edges.
 
     With an edge of an element its longest edge is bisected as well, so that angles
     stay large; where one would be below the limit nonetheless, fewer are bisected.
@@ -27,13 +26,13 @@ def bisect(draft, most):
     most : int
         New nodes at most.
     """
-    order = draft.worst(most)
+    order = draft.worst(most, draft.settings.insertion.worst)
     tried = [order[: len(order) >> k] for k in range(len(order).bit_length())]
-    for marked in (*tried, *order[1:ALONE, None]):
+    for marked in (*tried, *order[1 : draft.settings.division.tried_singly, None]):
         elements, parents, ends, _ = SPLITS["longest-edge"](draft.mesh, np.sort(marked))
         if len(ends) <= most and _are_allowed(draft, elements, parents, ends):
             return _split(draft, elements, parents, ends)
-    return 0
+    return draft
 
 
 def _are_allowed(draft, elements, parents, ends):
@@ -43,19 +42,21 @@ def _are_allowed(draft, elements, parents, ends):
 
 
 def _split(draft, elements, parents, ends):
-    """Take over elements with new nodes in the middle of edges; returns how many nodes are new."""
+    """The draft with other elements, and with new nodes in the middle of edges."""
     whole = np.bincount(parents, minlength=len(draft.elements)) == 1
     points = draft.nodes[ends].mean(axis=1)
     side = _sides(draft, ends)
     bound = side != INTERIOR
     points[bound] = draft.boundary.snapped(points[bound], side[bound])
-    draft.elements = elements
-    draft.nodes = np.concatenate([draft.nodes, points])
-    draft.values = np.concatenate([draft.values, draft.misfit.values(*points.T.copy())])
-    draft.side = np.concatenate([draft.side, side])
     kept = whole[parents]
-    draft.settle(np.where(kept, draft.errors[parents], np.nan), ~kept | draft.fresh[parents])
-    return len(ends)
+    return draft.changed(
+        np.concatenate([draft.nodes, points]),
+        elements,
+        values=np.concatenate([draft.values, draft.misfit.values(*points.T.copy())]),
+        side=np.concatenate([draft.side, side]),
+        errors=np.where(kept, draft.errors[parents], np.nan),
+        fresh=~kept | draft.fresh[parents],
+    )
 
 
 def _sides(draft, ends):

@@ -1,5 +1,6 @@
 """How far u_h is from a known u: integrals of a power of the error over elements and along edges."""
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -7,26 +8,21 @@ import numpy as np
 from .. import checks
 from ..mesh.quality import angles
 from ..mesh.topology import HEADS, TAILS
+from .settings import Quadrature
 
-# Dunavant 1985, points the same from each corner: twelve of degree 6, six of degree 4.
-TWELVE = (
-    (0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
-    (0.06308901449150223, 0.06308901449150223, 0.05084490637020682),
-    (0.31035245103378440, 0.63650249912139870, 0.08285107561837358),
-)
-SIX = (
-    (0.44594849091596489, 0.44594849091596489, 0.22338158967801147),
-    (0.09157621350977073, 0.09157621350977073, 0.10995174365532187),
-)
+# Dunavant's rules of 1985 by degree, of 12 and 6 points: two coordinates, and the weight, of each orbit.
+DUNAVANT = {
+    6: (
+        (0.24928674517091042, 0.24928674517091042, 0.11678627572637937),
+        (0.06308901449150223, 0.06308901449150223, 0.05084490637020682),
+        (0.31035245103378440, 0.63650249912139870, 0.08285107561837358),
+    ),
+    4: (
+        (0.44594849091596489, 0.44594849091596489, 0.22338158967801147),
+        (0.09157621350977073, 0.09157621350977073, 0.10995174365532187),
+    ),
+}
 PERMUTATIONS = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (1, 0, 2), (0, 2, 1), (2, 1, 0))
-SAMPLED = 8  # parts of each side of a part of an element, at whose ends the largest error is looked for
-ALONG = 4  # Gauss points along a boundary edge
-DEEPEST = 6  # divisions of an element into four
-LONGEST = 2.5  # spacings: how long a part of an element may be
-MOST_SLICES = 5  # halvings of the longest side
-FLATTEST = 1e-5  # area over the square of the longest side, below which an element is refused
-POINTS_AT_ONCE = 30_000  # as many as fit into a fast cache with what is computed from them
-ORDER = np.arange(3)
 
 
 @cache
@@ -41,15 +37,15 @@ def rule(level, halvings=0):
     >>> [len(rule(level)[1]) for level in range(3)]
     [12, 24, 96]
     """
-    points, weights = _points(SIX if level + halvings else TWELVE)
+    points, weights = _points(DUNAVANT[4 if level + halvings else 6])
     parts = _all_parts(level, halvings)
     return _in_each(parts, points), np.tile(weights, len(parts)) / len(parts)
 
 
 @cache
-def places(level, halvings=0):
-    """Barycentric points of a lattice on each part of an element that is so divided."""
-    i, j = np.array([(i, j) for i in range(SAMPLED + 1) for j in range(SAMPLED + 1 - i)]).T / SAMPLED
+def places(level, halvings, n):
+    """Barycentric points of a lattice of n intervals along each side of each part of a divided element."""
+    i, j = np.array([(i, j) for i in range(n + 1) for j in range(n + 1 - i)]).T / n
     points = np.stack([i, j, 1 - i - j], axis=1)
     return _in_each(_all_parts(level, halvings), points)
 
@@ -89,40 +85,66 @@ def _parts(level):
     return np.concatenate([1 - second_third.sum(axis=2, keepdims=True), second_third], axis=2)
 
 
-class Misfit:
-    """The error of linear interpolants of one function, and how often it was asked for a value.
-
-    What is integrated is its square, or a higher power when the largest error matters.
+class Counted:
+    """A function that counts the points at which it is evaluated.
 
     Parameters
     ----------
     function : callable
         Vectorised u(x, y).
+
+    Attributes
+    ----------
+    evaluations : int
+        Points so far.
+
+    Examples
+    --------
+    >>> u = Counted(np.hypot)
+    >>> u(np.array([3.0, 5.0]), np.array([4.0, 12.0])).tolist(), u.evaluations
+    ([5.0, 13.0], 2)
+    """
+
+    def __init__(self, function):
+        self.function, self.evaluations = function, 0
+
+    def __call__(self, x, y):
+        """Values, finite and of the shape of x and y, or a MeshError."""
+        found = checks.function_values(self.function, x, y)
+        self.evaluations += found.size
+        return found
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """The error of linear interpolants of a function, and integrals of its square or of a higher power.
+
+    Parameters
+    ----------
+    function : Counted
     spacing : float
         Elements of twice its square or more are divided for quadrature, so that what
         happens between the nodes of a coarse mesh is seen.
     sharpest : float
         Smallest angle of an element that is allowed, in radians.
-
-    Attributes
-    ----------
+    settings : Quadrature
     squarings : int
-        How often the error is squared: once for the L2 norm, four times for its sixteenth power.
+        How often the error is squared: once for the L2 norm, four times for its 16th power.
     unit : float
-        In which values are counted, a power of two near the largest error, so that high
+        Unit of values and errors, a power of two near the largest error, so that high
         powers neither vanish nor overflow.
     """
 
-    squarings, unit = 1, 1.0
-
-    def __init__(self, function, spacing, sharpest=0.0):
-        self.function, self.spacing, self.sharpest = function, spacing, sharpest
-        self.evaluations = 0
+    function: Counted
+    spacing: float
+    sharpest: float = 0.0
+    settings: Quadrature = Quadrature()
+    squarings: int = 1
+    unit: float = 1.0
 
     def values(self, x, y):
         """Values of the function in units, finite and of the shape of x and y, or a MeshError."""
-        found = checks.function_values(self.function, x, y)
-        self.evaluations += found.size
+        found = self.function(x, y)
         return found if self.unit == 1 else found / self.unit
 
     def on_elements(self, corners, values, is_new=True):
@@ -152,9 +174,9 @@ class Misfit:
         allowed = self.is_allowed(corners) if is_new else np.ones(len(corners), dtype=bool)
         divided = np.where(allowed, self._divisions(areas, sides), -1)
         for kind in np.unique(divided[allowed]):
-            points, weights = rule(*divmod(int(kind), MOST_SLICES + 1))
+            points, weights = rule(*self._level_and_halvings(kind))
             rows = np.flatnonzero(divided == kind)
-            for part in _at_once(rows, len(weights)):
+            for part in _at_once(rows, len(weights), self.settings.batch):
                 turn = _from_longest(sides[part])
                 miss = self._misses(_turned(corners[part], turn), _turned(values[part], turn), points)
                 found[part] = areas[part, None] * integrand(miss, points, weights, turn)
@@ -175,9 +197,9 @@ class Misfit:
         kinds = self._divisions(doubled_areas(corners) / 2, squared_sides(corners))
         found = 0.0
         for kind in np.unique(kinds):
-            points = places(*divmod(int(kind), MOST_SLICES + 1))
+            points = places(*self._level_and_halvings(kind), self.settings.intervals)
             rows = np.flatnonzero(kinds == kind)
-            for part in _at_once(rows, len(points)):
+            for part in _at_once(rows, len(points), self.settings.batch):
                 turn = _from_longest(squared_sides(corners[part]))
                 miss = self._misses(_turned(corners[part], turn), _turned(values[part], turn), points)
                 found = max(found, np.abs(miss).max())
@@ -194,14 +216,19 @@ class Misfit:
 
     def _divisions(self, areas, sides):
         """Level and halvings for each element in one number."""
-        level = np.ceil(np.log2((2 * np.abs(areas) / self.spacing**2).clip(min=1)) / 2).clip(max=DEEPEST)
-        length = np.sqrt(sides.max(axis=1)) / 2**level / (LONGEST * self.spacing)
-        halvings = np.ceil(np.log2(length.clip(min=1))).clip(max=MOST_SLICES)
-        return (level * (MOST_SLICES + 1) + halvings).astype(int)
+        settings = self.settings
+        level = np.ceil(np.log2((2 * np.abs(areas) / self.spacing**2).clip(min=1)) / 2)
+        level = level.clip(max=settings.most_quarterings)
+        length = np.sqrt(sides.max(axis=1)) / 2**level / (settings.longest_part * self.spacing)
+        halvings = np.ceil(np.log2(length.clip(min=1))).clip(max=settings.most_halvings)
+        return (level * (settings.most_halvings + 1) + halvings).astype(int)
+
+    def _level_and_halvings(self, kind):
+        return divmod(int(kind), self.settings.most_halvings + 1)
 
     def is_allowed(self, corners):
         """Whether an element is neither too flat nor too sharp."""
-        allowed = doubled_areas(corners) > 2 * FLATTEST * squared_sides(corners).max(axis=1)
+        allowed = doubled_areas(corners) > 2 * self.settings.flattest * squared_sides(corners).max(axis=1)
         if self.sharpest > 0:
             allowed &= angles(corners).min(axis=1) >= self.sharpest
         return allowed
@@ -212,7 +239,7 @@ class Misfit:
 
     def moments_on_edges(self, ends, values):
         """The same, and half its slopes in the two nodal values, (m, 2)."""
-        at, weights = _gauss()
+        at, weights = _gauss(self.settings.boundary_points)
         share = np.stack([1 - at, 1 + at]) / 2
         x, y = ends[..., 0] @ share, ends[..., 1] @ share
         miss, length = values @ share - self.values(x, y), np.hypot(*(ends[:, 1] - ends[:, 0]).T)
@@ -221,9 +248,9 @@ class Misfit:
 
 
 @cache
-def _gauss():
-    """Points and weights of Gauss on [-1, 1]."""
-    return np.polynomial.legendre.leggauss(ALONG)
+def _gauss(n):
+    """The n points and weights of Gauss on [-1, 1]."""
+    return np.polynomial.legendre.leggauss(n)
 
 
 def powers(miss, squarings):
@@ -255,14 +282,14 @@ def squared_sides(corners):
     return sides[..., 0] + sides[..., 1]
 
 
-def _at_once(rows, points):
+def _at_once(rows, points, batch):
     """The rows, each with so many points, in parts."""
-    return np.array_split(rows, min(len(rows), -(-len(rows) * points // POINTS_AT_ONCE)))
+    return np.array_split(rows, min(len(rows), -(-len(rows) * points // batch)))
 
 
 def _from_longest(sides):
     """The order of the corners that begins opposite the longest side."""
-    return (sides.argmax(axis=1)[:, None] + ORDER) % 3
+    return (sides.argmax(axis=1)[:, None] + np.arange(3)) % 3
 
 
 def _turned(array, turn):

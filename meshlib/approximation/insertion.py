@@ -17,21 +17,18 @@ import numpy as np
 from ..mesh.boundary_sides import INTERIOR
 from ..mesh.topology import TAILS
 from ..support.independent import coarse, independent
-from .working_mesh import WORST
-
-LEAST = 1e-9  # of the same, at which nothing is left that could be split
-CANDIDATES = 2  # elements looked at for each node to be inserted
-KINDS = 5  # middles of the three edges, centroid, point of largest error
 
 
-def insert(draft, count, share=WORST):
-    """Insert up to so many nodes into elements of nearly the largest error; returns how many.
+def inserted(draft, count, share=None):
+    """The draft with up to ``count`` new nodes in elements of nearly the largest error.
 
-    Where none of these can be split, others are looked at.
+    Where none of these can be split, elements of smaller errors are.
     """
-    worst = draft.worst(int(CANDIDATES * count * WORST / share), share)
+    settings = draft.settings.insertion
+    share = settings.worst if share is None else share
+    worst = draft.worst(int(settings.candidates * count * settings.worst / share), share)
     stars = _Stars(draft, worst)
-    gain = coarse(stars.gain(draft)).reshape(KINDS, -1)
+    gain = coarse(stars.gain(draft)).reshape(-1, len(worst))
     kind, column = gain.argmax(axis=0), np.arange(len(worst))
     best, gain = kind * len(worst) + column, gain[kind, column]
     possible = np.flatnonzero(np.isfinite(gain))
@@ -42,14 +39,12 @@ def insert(draft, count, share=WORST):
         )[:count]
     ]
     if len(chosen):
-        stars.put_into(draft, best[chosen])
-    elif share > LEAST:
-        return insert(draft, count, share / 10)
-    return len(chosen)
+        return stars.put_into(draft, best[chosen])
+    return inserted(draft, count, share / settings.widening) if share > settings.widest else draft
 
 
 class _Stars:
-    """Places for a new node, KINDS times as many as elements: what each would replace, and by what.
+    """Places for a new node, five for each element: what each would replace, and by what.
 
     Attributes
     ----------
@@ -115,19 +110,19 @@ class _Stars:
         return draft.weight * draft.misfit.on_edges(ends, values)
 
     def put_into(self, draft, chosen):
-        """Replace elements by those around the new nodes."""
+        """The draft with elements replaced by those around the new nodes."""
         row, k = np.nonzero(self.rim[chosen, :, 0] >= 0)
         new = np.column_stack([self.rim[chosen][row, k], draft.n_nodes + row]).astype(np.int32)
         kept = np.ones(len(draft.elements), dtype=bool)
         touched = self.touched[chosen]
         kept[touched[touched >= 0]] = False
-        draft.nodes = np.concatenate([draft.nodes, self.points[chosen]])
-        draft.values = np.concatenate([draft.values, self.values[chosen]])
-        draft.side = np.concatenate([draft.side, self._sides(draft, chosen)])
-        draft.elements = np.concatenate([draft.elements[kept], new])
-        draft.settle(
-            np.concatenate([draft.errors[kept], np.full(len(new), np.nan)]),
-            np.concatenate([draft.fresh[kept], np.ones(len(new), dtype=bool)]),
+        return draft.changed(
+            np.concatenate([draft.nodes, self.points[chosen]]),
+            np.concatenate([draft.elements[kept], new]),
+            values=np.concatenate([draft.values, self.values[chosen]]),
+            side=np.concatenate([draft.side, self._sides(draft, chosen)]),
+            errors=np.concatenate([draft.errors[kept], np.full(len(new), np.nan)]),
+            fresh=np.concatenate([draft.fresh[kept], np.ones(len(new), dtype=bool)]),
         )
 
     def _sides(self, draft, chosen):

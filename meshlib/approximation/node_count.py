@@ -2,15 +2,8 @@
 
 import numpy as np
 
-FIRST = 30  # nodes tried first
-CLOSE = 1.01  # ratio of a number that is enough to one that is not, at which the search ends
-FASTEST, SLOWEST = 3.0, 0.5  # orders of convergence that are believed
-MOST_LEAPS = 8.0  # by how much the number may grow at once
-MOST_TRIALS = 30
-FEWER = (1.015, 1.03, 1.045, 1.06)  # times as few nodes are tried at the end, as errors do not fall evenly
 
-
-def least(trial, tolerance, smallest, most):
+def least(trial, tolerance, smallest, settings):
     """The trial with about the least number of nodes whose error is within the tolerance.
 
     Numbers are foreseen by the order of convergence between the last two, and kept
@@ -22,8 +15,9 @@ def least(trial, tolerance, smallest, most):
     trial : callable
         What is found with a number of nodes; its ``error`` counts.
     tolerance : float
-    smallest, most : int
-        Numbers of nodes between which is looked.
+    smallest : int
+        Nodes of the smallest mesh.
+    settings : NodeCount
 
     Returns
     -------
@@ -32,46 +26,62 @@ def least(trial, tolerance, smallest, most):
     Examples
     --------
     >>> from types import SimpleNamespace
-    >>> found = least(lambda n: SimpleNamespace(n=n, error=5 / n), 0.01, 3, 10_000)
+    >>> from meshlib.approximation.settings import NodeCount
+    >>> found = least(lambda n: SimpleNamespace(n=n, error=5 / n), 0.01, 3, NodeCount())
     >>> 500 <= found.n <= 505
     True
     """
-    nodes, best = _narrowed(trial, tolerance, smallest, most)
+    nodes, best = _narrowed(trial, tolerance, smallest, settings)
     if best is None:
         return None
-    for fewer in dict.fromkeys(max(int(nodes / times), smallest) for times in FEWER):
+    for fewer in dict.fromkeys(max(int(nodes / times), smallest) for times in settings.fewer):
         found = trial(fewer)
         best = found if found.error <= tolerance else best
     return best
 
 
-def _narrowed(trial, tolerance, smallest, most):
+def _narrowed(trial, tolerance, smallest, settings):
     """A number that is enough, if any is, just above one that is not, and its trial."""
-    nodes, below, above, best, order, last = max(FIRST, smallest), smallest - 1, None, None, 1.0, None
-    for _ in range(MOST_TRIALS):
+    nodes, below, above, best, order, last = (
+        max(settings.first, smallest),
+        smallest - 1,
+        None,
+        None,
+        1.0,
+        None,
+    )
+    for _ in range(settings.most_trials):
         found = trial(nodes)
         if found.error <= tolerance:
             best, above = found, nodes
         else:
             below = nodes
-        if best is None and below >= most or best is not None and above <= max(below + 1, CLOSE * below):
+        if _is_over(below, above, settings):
             break
-        order, last = _order(last, nodes, found.error, order), (nodes, found.error)
-        ahead = nodes * np.clip(found.error / tolerance, 1e-9, 1e9) ** (1 / order)
-        nodes = _between(ahead, nodes, below, most if best is None else above, best is not None)
+        order, last = _order(last, nodes, found.error, order, settings), (nodes, found.error)
+        ratio = np.clip(found.error / tolerance, 1 / settings.largest_ratio, settings.largest_ratio)
+        nodes = _between(nodes * ratio ** (1 / order), nodes, below, above, settings)
     return above, best
 
 
-def _order(last, nodes, error, order):
+def _is_over(below, above, settings):
+    """Whether the number that is enough is close to one that is not, or none is enough."""
+    return below >= settings.most if above is None else above <= max(below + 1, settings.close * below)
+
+
+def _order(last, nodes, error, order, settings):
     """Order of convergence between two trials, or the one before where it cannot be told."""
     if last is None or last[0] == nodes or not (0 < error < np.inf and last[1] > 0):
         return order
-    return float(np.clip(np.log(last[1] / error) / np.log(nodes / last[0]), SLOWEST, FASTEST))
+    return float(
+        np.clip(np.log(last[1] / error) / np.log(nodes / last[0]), settings.slowest, settings.fastest)
+    )
 
 
-def _between(ahead, nodes, below, above, is_bound):
+def _between(ahead, nodes, below, above, settings):
     """A whole number near the one foreseen, above what is too few and below what is enough."""
-    ahead = min(ahead, MOST_LEAPS * nodes, above)
-    if is_bound:
-        ahead = np.clip(ahead, below * CLOSE**0.5, max(above / CLOSE**0.5, below + 1))
-    return int(np.clip(round(ahead), below + 1, above - 1 if is_bound else above))
+    most, apart = settings.most if above is None else above, settings.close**0.5
+    ahead = min(ahead, settings.most_growth * nodes, most)
+    if above is not None:
+        ahead = np.clip(ahead, below * apart, max(above / apart, below + 1))
+    return int(np.clip(round(ahead), below + 1, most if above is None else above - 1))

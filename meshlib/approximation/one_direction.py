@@ -16,19 +16,8 @@ import numpy as np
 from ..mesh.mesh import Mesh
 from ..support.random_numbers import Draws
 
-STEP = 1e-5  # of the size of the rectangle, for differences of the function
-LOOKED_AT = 4000  # points at which the function is asked whether it has one direction
-CONSTANT = 1e-6  # of its range, by which it may change along lines
-ALONG = 20_001  # points along s for its second derivative
-FLAT = 1e-3  # of the mean density of nodes, where the function is linear
-ROUNDING = 1e-13  # relative second difference below which it is linear everywhere
-EXACT = 1e-7  # to which a direction along an axis is known
-PHASES = 8  # places of the first node between which is chosen
-FEWEST = 12  # nodes of such a mesh
-CIRCLE = ((0, 0), (1, 0), (1, 1), (0, 1))  # corners of a rectangle, counter-clockwise
 
-
-def in_turn(function, low, high, nodes, power=2):
+def in_turn(function, low, high, nodes, power, settings):
     """A mesh of so many nodes for a function of one direction on a rectangle, or None for another.
 
     Parameters
@@ -40,6 +29,7 @@ def in_turn(function, low, high, nodes, power=2):
     nodes : int
     power : int
         Of the error, whose integral is to be small.
+    settings : OneDirection
 
     Returns
     -------
@@ -48,25 +38,29 @@ def in_turn(function, low, high, nodes, power=2):
     Examples
     --------
     >>> import numpy as np
+    >>> from meshlib.approximation.settings import OneDirection
     >>> unit = np.zeros(2), np.ones(2)
-    >>> in_turn(lambda x, y: (x + 2 * y) ** 2, *unit, 20).counts
+    >>> in_turn(lambda x, y: (x + 2 * y) ** 2, *unit, 20, 2, OneDirection()).counts
     (20, 37, 18)
-    >>> in_turn(lambda x, y: x * y, *unit, 20) is None
+    >>> in_turn(lambda x, y: x * y, *unit, 20, 2, OneDirection()) is None
     True
     """
-    direction = _direction(function, low, high) if nodes >= FEWEST else None
+    direction = _direction(function, low, high, settings) if nodes >= settings.fewest_nodes else None
     if direction is None:
         return None
-    corners = low + np.array(CIRCLE) * (high - low)
+    corners = low + np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) * (high - low)  # counter-clockwise
     chains = _Chains(corners, direction)
-    total = _total_density(function, chains, power)
-    return None if total is None else chains.mesh(_equidistributed(chains, total, nodes - len(corners)))
+    total = _total_density(function, chains, power, settings)
+    if total is None:
+        return None
+    return chains.mesh(_equidistributed(chains, total, nodes - len(corners), settings.phases))
 
 
-def _direction(function, low, high):
+def _direction(function, low, high, settings):
     """The unit vector along which alone the function changes, or None."""
-    points = low + (STEP + (1 - 2 * STEP) * Draws(0).uniform((LOOKED_AT, 2))) * (high - low)
-    step = STEP * (high - low).min()
+    share = settings.difference
+    points = low + (share + (1 - 2 * share) * Draws(0).uniform((settings.points, 2))) * (high - low)
+    step = share * (high - low).min()
     ahead, behind = (
         np.stack([function(*(points + e).T) for e in signed * np.eye(2)]) for signed in (step, -step)
     )
@@ -75,44 +69,50 @@ def _direction(function, low, high):
     if not np.isfinite(slopes).all() or not steepest.any():
         return None
     direction = steepest / np.hypot(*steepest)
-    direction[np.abs(direction) < EXACT] = 0
-    return direction if _is_constant(function, points, low, high, direction) else None
+    direction[np.abs(direction) < settings.axis] = 0
+    ahead = _across(points, low, high, direction)
+    return direction if _is_constant(function, *ahead, settings.constant) else None
 
 
-def _is_constant(function, points, low, high, direction):
-    """Whether the function is the same at points and further along the lines across the direction."""
+def _across(points, low, high, direction):
+    """Points, and as many others on the lines across the direction through them."""
     across = np.array([-direction[1], direction[0]])
     away = (Draws(1).uniform(len(points)) - 0.5)[:, None] * 2 * np.hypot(*(high - low)) * across
     inside = ((points + away > low) & (points + away < high)).all(axis=1)
-    here, there = (function(*p[inside].T) for p in (points, points + away))
-    return np.abs(here - there).max() <= CONSTANT * np.ptp(here)
+    return points[inside], (points + away)[inside]
 
 
-def _total_density(function, chains, power):
+def _is_constant(function, points, others, share):
+    """Whether the function differs between points and others by at most a share of its range."""
+    here, there = (function(*p.T) for p in (points, others))
+    return np.abs(here - there).max() <= share * np.ptp(here)
+
+
+def _total_density(function, chains, power, settings):
     """Points along s and the integral up to each of the density of nodes that is best, or None for a plane.
 
     An element at s has an area proportional to the length l of the line there and
     an error like f'' h^2: the integral of l f''^p h^(2p) is least where 1 / h is
     proportional to (l f''^p)^(1/(2p + 1)).
     """
-    s = np.linspace(*chains.ends, ALONG)
+    s = np.linspace(*chains.ends, settings.samples)
     right, left = (chains.points(s, side) for side in (0, 1))
     values = function(*((left + right) / 2).T)
     second = np.abs(np.diff(values, 2))
-    if second.max() <= ROUNDING * np.abs(values).max():
+    if second.max() <= settings.rounding * np.abs(values).max():
         return None
     length = np.hypot(*(right - left)[1:-1].T)
     density = length ** (1 / (2 * power + 1)) * second ** (power / (2 * power + 1))
-    density = np.pad(density + FLAT * density.mean(), 1, mode="edge")
+    density = np.pad(density + settings.background * density.mean(), 1, mode="edge")
     return s, np.append(0, np.cumsum((density[1:] + density[:-1]) / 2))
 
 
-def _equidistributed(chains, total, number):
+def _equidistributed(chains, total, number, n_phases):
     """So many values of s with the same integral of the density between them, none at that of a corner."""
     s, upto = total
     corners = np.interp(np.concatenate([c @ chains.direction for c in chains.corners]), s, upto)
     steps = upto[-1] / number
-    phases = (np.arange(PHASES) + 0.5) / PHASES
+    phases = (np.arange(n_phases) + 0.5) / n_phases
     apart = np.abs((corners[:, None] / steps - phases + 0.5) % 1 - 0.5).min(axis=0)
     return np.interp((np.arange(number) + phases[apart.argmax()]) * steps, upto, s)
 

@@ -13,10 +13,9 @@ All is written in the frame of a patch, two directions in which it is round.
 
 import numpy as np
 
+from ..interpolation.interpolant import gradients
 from ..mesh.boundary_sides import INTERIOR
 from .collapse import beside
-
-PROBE = 0.08  # of the extent of a patch, at which differences of the function are taken
 
 
 class Patches:
@@ -24,6 +23,8 @@ class Patches:
 
     Attributes
     ----------
+    points, values : (N, 2), (N,) ndarray of float
+        Positions of all nodes, some of them moved already, and the function there.
     nodes : (n,) ndarray of int
         Their middle nodes.
     element, k, row : (m,) ndarray of int
@@ -32,20 +33,24 @@ class Patches:
         With the weighted error along the boundary.
     """
 
-    def __init__(self, draft, nodes, corner, row, errors, moments):
-        self.draft, self.nodes, self.row = draft, nodes, row
+    def __init__(self, sweep, nodes):
+        self.draft, self.points, self.values = sweep.draft, sweep.nodes, sweep.values
+        corner, self.row = sweep.patches.of(nodes)
+        self.nodes = nodes
         self.element, self.k = corner // 3, corner % 3
-        self.starts = np.flatnonzero(np.diff(row, prepend=-1))
-        self.rows = draft.elements[self.element]
-        self.bound = np.flatnonzero(draft.side[nodes] != INTERIOR)
-        self.beside = beside(draft, nodes[self.bound]) if len(self.bound) else np.empty((0, 2), dtype=int)
-        self.moments = moments[self.element, self.k]
-        self.on_sides, self.side_moments = self._along_sides(draft.nodes[nodes], draft.values[nodes])
-        self.error = np.add.reduceat(errors[self.element], self.starts) + self.on_sides
+        self.starts = np.flatnonzero(np.diff(self.row, prepend=-1))
+        self.rows = self.draft.elements[self.element]
+        self.bound = np.flatnonzero(self.draft.side[nodes] != INTERIOR)
+        self.beside = (
+            beside(self.draft, nodes[self.bound]) if len(self.bound) else np.empty((0, 2), dtype=int)
+        )
+        self.moments = sweep.moments[self.element, self.k]
+        self.on_sides, self.side_moments = self._along_sides(self.points[nodes], self.values[nodes])
+        self.error = np.add.reduceat(sweep.errors[self.element], self.starts) + self.on_sides
 
     def moved(self, at, values):
         """Error of each patch with its node there, and errors and moments of the elements."""
-        corners, nodal = self.draft.nodes[self.rows], self.draft.values[self.rows]
+        corners, nodal = self.points[self.rows], self.values[self.rows]
         place = np.arange(len(self.row)), self.k
         corners[place], nodal[place] = at[self.row], values[self.row]
         errors, moments = self.draft.misfit.moments(corners, nodal)
@@ -55,8 +60,8 @@ class Patches:
         """Weighted error along the boundary for each patch, and the moments of its two edges, (bound, 2)."""
         total, moments = np.zeros(len(self.nodes)), np.zeros((len(self.bound), 2))
         for j, node in enumerate(self.beside.T):
-            ends = np.stack([at[self.bound], self.draft.nodes[node]], axis=1)
-            nodal = np.stack([values[self.bound], self.draft.values[node]], axis=1)
+            ends = np.stack([at[self.bound], self.points[node]], axis=1)
+            nodal = np.stack([values[self.bound], self.values[node]], axis=1)
             error, moment = self.draft.misfit.moments_on_edges(ends, nodal)
             total[self.bound] += self.draft.weight * error
             moments[:, j] = self.draft.weight * moment[:, 0]
@@ -69,7 +74,7 @@ class Patches:
 
     def frames(self, away, row):
         """Two directions for each patch as long as its extent, (n, 2, 2); the first along a side if on it."""
-        away = self.draft.nodes[away] - self.draft.nodes[self.nodes][row]
+        away = self.points[away] - self.points[self.nodes][row]
         spread = [np.bincount(row, away[:, i] * away[:, j]) for i, j in ((0, 0), (0, 1), (1, 1))]
         count = np.bincount(row)[:, None]
         matrix = np.stack([spread[0], spread[1], spread[1], spread[2]], axis=1) / count
@@ -80,8 +85,8 @@ class Patches:
         return frames
 
     def _side_frames(self, middle):
-        here = self.draft.nodes[self.nodes[self.bound]]
-        away = self.draft.nodes[self.beside] - here[:, None]
+        here = self.points[self.nodes[self.bound]]
+        away = self.points[self.beside] - here[:, None]
         nearest = np.sqrt((away**2).sum(axis=2)).min(axis=1)[:, None]
         ends = self.draft.boundary.ends[self.draft.side[self.nodes[self.bound]]]
         along = ends[:, 1] - ends[:, 0]
@@ -108,21 +113,22 @@ class Patches:
 
     def _differences(self, frames):
         """First and second differences of the function in the frame, about a point inside the domain."""
-        u, v = PROBE * frames[:, 0], PROBE * frames[:, 1]
-        centre = self.draft.nodes[self.nodes].copy()
+        probe = self.draft.settings.moves.probe
+        u, v = probe * frames[:, 0], probe * frames[:, 1]
+        centre = self.points[self.nodes].copy()
         centre[self.bound] += v[self.bound]
         places = np.concatenate([centre, centre + u, centre - u, centre + v, centre - v, centre + u + v])
         here, right, left, up, down, both = self.draft.misfit.values(*places.T.copy()).reshape(6, -1)
         mixed = both - right - up + here
-        hessian = np.stack([right + left - 2 * here, mixed, mixed, up + down - 2 * here], axis=1) / PROBE**2
-        slope = np.stack([right - left, up - down], axis=1) / (2 * PROBE)
-        slope[self.bound] -= PROBE * hessian[self.bound][:, [1, 3]]
+        hessian = np.stack([right + left - 2 * here, mixed, mixed, up + down - 2 * here], axis=1) / probe**2
+        slope = np.stack([right - left, up - down], axis=1) / (2 * probe)
+        slope[self.bound] -= probe * hessian[self.bound][:, [1, 3]]
         return slope, hessian.reshape(-1, 2, 2)
 
     def _arms(self, frames):
         """From the middle to the other two corners of each element, in the frame, and the frame's area."""
-        here = self.draft.nodes[self.nodes][self.row]
-        pair = [self.draft.nodes[self._corner(shift)] - here for shift in (1, 2)]
+        here = self.points[self.nodes][self.row]
+        pair = [self.points[self._corner(shift)] - here for shift in (1, 2)]
         u, v = frames[self.row, 0], frames[self.row, 1]
         area = _cross(u, v)
         return *(np.stack([_cross(x, v), _cross(u, x)], axis=1) / area[:, None] for x in pair), area
@@ -132,21 +138,19 @@ class Patches:
 
     def _gradients(self, y, z):
         """Gradient of the interpolant on each element, in the frame."""
-        here = self.draft.values[self.nodes][self.row]
-        up, across = (self.draft.values[self._corner(shift)] - here for shift in (1, 2))
-        area = _cross(y, z)
-        return np.stack([up * z[:, 1] - across * y[:, 1], across * y[:, 0] - up * z[:, 0]], 1) / area[:, None]
+        nodes = np.take_along_axis(self.rows, (self.k[:, None] + np.arange(3)) % 3, axis=1)
+        return gradients(np.stack([np.zeros_like(y), y, z], axis=1), self.values[nodes])
 
     def _with_sides(self, frames, slope, hessian, force, curvature):
         """Nodes on a side have one direction only, and the error along it counts as well."""
-        bound, here = self.bound, self.draft.nodes[self.nodes[self.bound]]
+        bound, here = self.bound, self.points[self.nodes[self.bound]]
         length = np.hypot(*frames[bound, 0].T)
         force[bound, 1] = 0
         curvature[bound, 0, 1] = curvature[bound, 1, 0] = 0
         curvature[bound, 1, 1] = np.abs(curvature[bound, 1, 1]) + np.abs(curvature[bound, 0, 0])
         for j, node in enumerate(self.beside.T):
-            away = ((self.draft.nodes[node] - here) * frames[bound, 0]).sum(axis=1) / length**2
-            chord = (self.draft.values[node] - self.draft.values[self.nodes[bound]]) / away
+            away = ((self.points[node] - here) * frames[bound, 0]).sum(axis=1) / length**2
+            chord = (self.values[node] - self.values[self.nodes[bound]]) / away
             force[bound, 0] += 2 * self.side_moments[:, j] * (slope[bound, 0] - chord)
             curvature[bound, 0, 0] += (
                 self.draft.weight * length * hessian[bound, 0, 0] ** 2 * np.abs(away) ** 3 / 6

@@ -7,24 +7,22 @@ from ..errors import InvalidInputError
 from ..mesh.delaunay import delaunay
 from ..mesh.mesh import Mesh
 from ..support.random_numbers import Draws
-from .collapse import collapse
+from .collapse import collapsed
 
-CELLS = 3  # of the first lattice along the shorter side of a rectangle
-JITTER = 0.2  # of a cell, by which its inner nodes are moved at random
 LARGEST_STRETCH = 1e3  # of a rectangle
 
 
-def start(domain, nodes, seed):
+def start(domain, nodes, seed, settings):
     """The first mesh."""
     if isinstance(domain, Mesh):
         return checks.a_mesh(domain)
     low, high = corners(domain)
     size = high - low
     most = max(1, int(np.sqrt(nodes)) - 1)  # cells
-    shape = np.minimum(np.ceil(CELLS * size / size.min()), most).astype(int)
+    shape = np.minimum(np.ceil(settings.cells * size / size.min()), most).astype(int)
     lattice = np.stack(np.meshgrid(*(np.arange(n + 1.0) for n in shape)), axis=-1).reshape(-1, 2)
     inner = ((lattice > 0) & (lattice < shape)).all(axis=1)
-    lattice[inner] += JITTER * (2 * Draws(seed).uniform((inner.sum(), 2)) - 1)
+    lattice[inner] += settings.jitter * (2 * Draws(seed).uniform((inner.sum(), 2)) - 1)
     return delaunay(low + lattice / shape * size)
 
 
@@ -59,10 +57,12 @@ def corners(domain):
     return low, high
 
 
-def fit(draft, nodes):
-    """Take nodes out of a start mesh that has too many."""
+def fitted(draft, nodes):
+    """The draft without the nodes that a start mesh has too many."""
     while draft.n_nodes > nodes:
-        if not collapse(draft, 1 - nodes / draft.n_nodes):
+        before, draft = draft, collapsed(draft, 1 - nodes / draft.n_nodes)
+        if draft.n_nodes == before.n_nodes:
             raise InvalidInputError(
                 "nodes", f"{nodes} nodes are too few for this domain, {draft.n_nodes} are left; give more"
             )
+    return draft

@@ -1,22 +1,20 @@
 """Swaps that lower the error, many at a time."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..mesh.topology import quadrilaterals
 from ..support.independent import coarse, independent
 
-GAIN = 1e-9  # of the error of two elements, below which they stay
 
-
-def swap(draft, passes=30):
-    """Swap edges until none lowers the error, or so many passes are over; returns the number of swaps."""
-    total = 0
-    for _ in range(passes):
-        swaps = _pass(draft)
-        total += swaps
-        if not swaps:
+def swapped(draft, passes=None):
+    """The draft after swaps of edges until none lowers the error, or until the last pass."""
+    for _ in range(passes or draft.settings.swaps.passes):
+        before, draft = draft, _pass(draft)
+        if draft.mesh is before.mesh:
             break
-    return total
+    return draft
 
 
 def _pass(draft):
@@ -38,12 +36,11 @@ def _pass(draft):
     first, second = np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)
     old, new = draft.errors[pairs].sum(axis=1), np.stack([draft.error_of(first), draft.error_of(second)])
     gain = coarse(old - new.sum(axis=0))
-    good = np.flatnonzero(gain > GAIN * old)
+    good = np.flatnonzero(gain > draft.settings.swaps.smallest_gain * old)
     chosen = good[
         independent(gain[good], np.repeat(np.arange(len(good)), 2), pairs[good].ravel(), len(draft.elements))
     ]
-    _exchange(draft, pairs[chosen].T, (first[chosen], second[chosen]), new[:, chosen])
-    return len(chosen)
+    return _exchanged(draft, pairs[chosen].T, (first[chosen], second[chosen]), new[:, chosen])
 
 
 def _promising(draft):
@@ -54,13 +51,12 @@ def _promising(draft):
     return edges[old > draft.little]
 
 
-def _exchange(draft, rows, elements, errors):
-    """Put new elements and their errors into rows, and take only these for new."""
-    fresh = np.zeros(len(draft.elements), dtype=bool)
+def _exchanged(draft, rows, elements, errors):
+    """The draft with other elements and errors in some rows, which alone count as new."""
+    fresh = np.zeros(draft.n_elements, dtype=bool)
     if not rows.size:
-        draft.fresh = fresh
-        return
-    draft.elements = draft.elements.copy()
+        return replace(draft, fresh=fresh)
+    all_elements, all_errors = draft.elements.copy(), draft.errors.copy()
     for row, nodes, error in zip(rows, elements, errors, strict=True):
-        draft.elements[row], draft.errors[row], fresh[row] = nodes, error, True
-    draft.settle(draft.errors, fresh)
+        all_elements[row], all_errors[row], fresh[row] = nodes, error, True
+    return draft.changed(draft.nodes, all_elements, errors=all_errors, fresh=fresh)

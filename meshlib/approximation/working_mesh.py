@@ -1,61 +1,95 @@
 """A mesh in the making: what operations replace, and the error of each element."""
 
-from copy import copy
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 
-from ..mesh.boundary_sides import sides_of
+from .._typing import BoolArray, FloatArray, IntArray
+from ..mesh.boundary_sides import Sides, sides_of
 from ..mesh.mesh import Mesh
 from ..mesh.topology import around_nodes, grouped
 from ..support.independent import coarse
-
-LITTLE = 1e-6  # of the mean error of an element, below which there is nothing to gain
-WORST = 0.3  # of the largest error, from which on an element is one of the worst
-BOUNDARY_SHARE = 0.1  # weight of the error along the boundary, in lengths of a typical element
+from .error_integrals import Misfit
+from .settings import Settings
 
 
+@dataclass(frozen=True, eq=False)
 class Draft:
-    """Nodes, values and elements, the error of each element, and which elements are new.
+    """A mesh with the error of each element, and which elements are new.
 
-    Operations of the package replace its arrays and end with `settle`.
+    A draft never changes, and its arrays are read-only: every operation of the package returns
+    another one. So the best of several drafts is kept as it is, and nothing has to be restored.
 
-    Attributes
+    Parameters
     ----------
-    nodes, values, elements : (N, 2), (N,), (T, 3) ndarray
-        Values are counted in the misfit's unit.
-    side : (N,) ndarray of int
-        Number of the straight side of the domain on which a node lies; INTERIOR or CORNER.
-    errors : (T,) ndarray of float
-        Integral of the squared error, or of a higher power, over each element.
-    fresh : (T,) ndarray of bool
-        Whether an element has changed since its edges were last considered.
     misfit : Misfit
     norm : {"L2", "max"}
-        Of the error.
+        Norm of the error.
+    settings : Settings
+    mesh : Mesh
+    values : (N,) ndarray of float
+        The function at the nodes, in the misfit's unit.
+    side : (N,) ndarray of int
+        Number of the straight side of the domain on which a node lies; INTERIOR or CORNER.
+    boundary : Sides
+    errors : (T,) ndarray of float
+        Integral of the squared error, or of a higher power, over each element. Those that
+        are not a number are computed.
+    fresh : (T,) ndarray of bool
+        Whether an element has changed since its edges were last considered.
     """
 
-    def __init__(self, misfit, mesh, norm="L2"):
-        self.norm, self.misfit = norm, misfit
-        self.begin(mesh)
+    misfit: Misfit
+    norm: str
+    settings: Settings
+    mesh: Mesh
+    values: FloatArray
+    side: IntArray
+    boundary: Sides
+    errors: FloatArray
+    fresh: BoolArray
 
-    def begin(self, mesh):
-        """Take over a mesh."""
-        self.nodes, self.elements, self.boundary = mesh.nodes, mesh.elements, sides_of(mesh)
-        self.side = self.boundary.of_node.copy()
-        self.values = self.misfit.values(*(np.ascontiguousarray(v) for v in mesh.nodes.T))
-        self.settle(np.full(mesh.n_elements, np.nan), np.ones(mesh.n_elements, dtype=bool))
+    def __post_init__(self) -> None:
+        unknown = np.flatnonzero(np.isnan(self.errors))
+        if len(unknown):
+            self.errors[unknown] = self.error_of(self.elements[unknown], is_new=False)
+        for array in (self.values, self.side, self.errors, self.fresh):
+            array.flags.writeable = False
 
-    def settle(self, errors, fresh):
-        """Take over new arrays; errors that are not a number are computed."""
-        self.mesh = Mesh._trusted(self.nodes, self.elements)
-        self.errors, self.fresh = errors, fresh
-        unknown = np.flatnonzero(np.isnan(errors))
-        self.errors[unknown] = self.error_of(self.elements[unknown], is_new=False)
+    @classmethod
+    def of(cls, misfit: Misfit, mesh: Mesh, norm: str = "L2", settings: Settings | None = None) -> Self:
+        """The draft of a mesh."""
+        mesh, boundary = Mesh._trusted(mesh.nodes, mesh.elements), sides_of(mesh)
+        values = np.array(misfit.values(*(np.ascontiguousarray(v) for v in mesh.nodes.T)))
+        unknown, fresh = np.full(mesh.n_elements, np.nan), np.ones(mesh.n_elements, dtype=bool)
+        return cls(
+            misfit, norm, settings or Settings(), mesh, values, boundary.of_node, boundary, unknown, fresh
+        )
+
+    def changed(self, nodes: FloatArray, elements: IntArray, **arrays: Any) -> Self:
+        """The draft with another mesh, and other arrays given by name."""
+        return replace(self, mesh=Mesh._trusted(nodes, elements), **arrays)
+
+    @property
+    def nodes(self) -> FloatArray:
+        """(N, 2): coordinates of the nodes."""
+        return self.mesh.nodes
+
+    @property
+    def elements(self) -> IntArray:
+        """(T, 3): node numbers of the elements."""
+        return self.mesh.elements
 
     @property
     def n_nodes(self):
         """Number of nodes."""
         return len(self.nodes)
+
+    @property
+    def n_elements(self) -> int:
+        """Number of elements."""
+        return len(self.elements)
 
     @property
     def error(self):
@@ -73,30 +107,29 @@ class Draft:
     def _largest(self):
         return self.misfit.largest(self.nodes[self.elements], self.values[self.elements])
 
-    def measure(self, squarings):
-        """From now on integrate the power 2 ** squarings of the error, in units of about its largest."""
+    def measured(self, squarings: int) -> Self:
+        """The draft with integrals of the power 2 ** squarings of the error, in units near its largest."""
         unit = 2.0 ** np.round(np.log2(largest)) if (largest := self._largest) > 0 else 1.0
-        self.values, self.misfit.unit = self.values / unit, self.misfit.unit * unit
-        self.misfit.squarings = squarings
-        self._settle_anew()
+        misfit = replace(self.misfit, squarings=squarings, unit=self.misfit.unit * unit)
+        return self._measured_by(misfit, self.values / unit)
 
-    def measure_finely(self, times):
-        """From now on integrate by elements that are divided so many times as finely."""
-        self.misfit.spacing /= times
-        self._settle_anew()
+    def measured_finely(self, times: float) -> Self:
+        """The draft with integrals by a quadrature whose spacing is divided by a factor."""
+        return self._measured_by(replace(self.misfit, spacing=self.misfit.spacing / times), self.values)
 
-    def _settle_anew(self):
-        self.settle(np.full(len(self.elements), np.nan), np.ones(len(self.elements), dtype=bool))
+    def _measured_by(self, misfit: Misfit, values: FloatArray) -> Self:
+        unknown, fresh = np.full(self.n_elements, np.nan), np.ones(self.n_elements, dtype=bool)
+        return replace(self, misfit=misfit, values=values, errors=unknown, fresh=fresh)
 
     @property
     def little(self):
         """An error so small that what is left of it is rounding, or not worth a change."""
-        return LITTLE * self.errors.mean()
+        return self.settings.objective.negligible * self.errors.mean()
 
     @property
     def weight(self):
         """What a unit of the squared error along the boundary counts as."""
-        return BOUNDARY_SHARE * np.sqrt(self.mesh.domain_area / self.n_nodes)
+        return self.settings.objective.boundary_share * np.sqrt(self.mesh.domain_area / self.n_nodes)
 
     def error_of(self, elements, is_new=True):
         """Integral of the squared error over elements given by node numbers, (m, 3)."""
@@ -122,7 +155,7 @@ class Draft:
         np.add.at(found, self.mesh.edge_elements[boundary, 0], self.edge_error_of(self.mesh.edges[boundary]))
         return found
 
-    def worst(self, most, share=WORST):
+    def worst(self, most, share):
         """The elements of largest error, so many at most, down to a share of the largest."""
         error = coarse(self.errors + self.edge_errors())
         order = np.argsort(-error, kind="stable")[:most]
@@ -136,29 +169,6 @@ class Draft:
         """The nodes joined to each node."""
         heads, _, starts = around_nodes(self.mesh.edges, self.n_nodes)
         return Rows(heads, starts)
-
-
-class Best:
-    """The best of the states through which a draft goes: most nodes, then the smallest error.
-
-    What counts is the error that is being lowered, be the norm what it may.
-    """
-
-    ARRAYS = "nodes", "values", "elements", "side", "boundary", "errors", "fresh", "mesh"
-
-    def __init__(self, draft):
-        self.draft, self.rank, self.kept = draft, (np.inf, np.inf), None
-
-    def offer(self):
-        """Keep the present state if it is better."""
-        rank = -self.draft.n_nodes, self.draft.objective
-        if rank < self.rank:
-            self.rank, self.kept = rank, {name: copy(getattr(self.draft, name)) for name in self.ARRAYS}
-
-    def restore(self):
-        """Go back to the best state."""
-        for name, array in self.kept.items():
-            setattr(self.draft, name, array)
 
 
 class Rows:

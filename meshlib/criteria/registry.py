@@ -153,7 +153,7 @@ def get(criterion: str | Criterion) -> Criterion:
     """
     if isinstance(criterion, Criterion):
         return criterion
-    if criterion == "min-error":
+    if criterion == "min-error" and criterion not in _registry:
         raise UnknownNameError("unknown", "'min-error' needs the function u; pass criteria.min_error(u)")
     return _registry[checks.choice(criterion, names(), "criterion")]
 

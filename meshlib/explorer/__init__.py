@@ -6,6 +6,7 @@ beforehand (`atlas`), and draws them with the same scripts (`scripts`).
 """
 
 import base64
+from typing import Any
 
 from .controls import Control, Exploration, menu, slider
 from .scene import Scene
@@ -27,13 +28,13 @@ class Explorer:
     scene : Scene
         What is shown.
     controls : dict of ipywidgets.Widget
-        By setting; to set one's ``value`` is to use it by hand.
+        By setting; to assign to the ``value`` of one is like using it by hand.
     frames : ipywidgets.Widget
         Chooses the frame.
     view : anywidget.AnyWidget
-        Draws it.
+        Draws the frame.
     widget : ipywidgets.VBox
-        All of it, to place among other widgets.
+        Controls and view, to place among other widgets.
 
     Raises
     ------
@@ -53,7 +54,7 @@ class Explorer:
     Explorer(SR1 on 33 nodes, JND-L1: 88 edges, 26 swaps, L2 error 0.0125)
     """
 
-    def __init__(self, exploration, **settings):
+    def __init__(self, exploration: Exploration, **settings: Any) -> None:
         from . import widgets
         from .view import View
 
@@ -66,8 +67,8 @@ class Explorer:
             control.observe(self._follow, "value")
         self._follow()
 
-    def _follow(self, _=None):
-        """Bring scene and view up to date with the controls; an adapted mesh stays one."""
+    def _follow(self, _: Any = None) -> None:
+        """Show the scene of the settings: its last frame, if the last one was shown, else the same frame."""
         from .atlas import packed
 
         self.scene = self.exploration.scene(**{name: c.value for name, c in self.controls.items()})
@@ -78,15 +79,15 @@ class Explorer:
             self.frames.value = self.frames.max if last else min(self.frames.value, self.frames.max)
         self.view.frame = self.frames.value if self.exploration.film else self.frames.index
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Explorer({self.scene})"
 
-    def _repr_mimebundle_(self, include=None, exclude=None):
-        """Live where widgets are, a picture where they are not, a line of text elsewhere."""
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
+        """The live view where widgets run, a picture where they do not, a line of text elsewhere."""
         bundle = self.widget._repr_mimebundle_(include=include, exclude=exclude)
         return bundle | {"text/plain": repr(self)} | self._picture()
 
-    def _picture(self):
+    def _picture(self) -> dict[str, str]:
         from .picture import png
 
         try:

@@ -1,59 +1,129 @@
-"""What can be chosen in an explorer, as data, for widgets in Jupyter and on a page alike."""
+"""What can be chosen in an explorer, as data, for widgets in Jupyter and for pages alike."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import product
+from typing import Any, TypeAlias
 
 from .. import checks
+from .scene import Scene
 
 MENU, SLIDER = "menu", "slider"
+
+Options: TypeAlias = Mapping[Any, str] | Iterable[Any]
+"""Values by which a control is set, with what readers see of them unless it is their own text."""
 
 
 @dataclass(frozen=True)
 class Control:
     """One setting: its values, and how it is shown.
 
+    Made by `menu` and `slider`.
+
     Attributes
     ----------
     name : str
-        Of the argument that it sets.
+        The argument of the exploration that it sets.
     label : str
-    options : tuple
-        All values that a kernel can compute.
-    texts : tuple of str
-        What readers see of them.
+    given : mapping, iterable or callable
+        The values, or a function that returns them whenever they are asked for.
     kind : {"menu", "slider"}
-    on_page : tuple
-        The values for which states are precomputed; by default all.
+    given_on_page : iterable or callable
+        The values for which states are precomputed, or a function that returns them; none
+        stands for all.
     """
 
     name: str
     label: str
-    options: tuple
-    texts: tuple
+    given: Options | Callable[[], Options]
     kind: str = MENU
-    on_page: tuple = ()
+    given_on_page: Iterable[Any] | Callable[[], Iterable[Any]] = ()
 
     @property
-    def paged(self):
+    def texts_by_value(self) -> dict[Any, str]:
+        """What readers see of each value that a kernel can compute."""
+        options = _now(self.given)
+        return dict(options) if isinstance(options, Mapping) else {value: str(value) for value in options}
+
+    @property
+    def options(self) -> tuple[Any, ...]:
+        """All values that a kernel can compute."""
+        return tuple(self.texts_by_value)
+
+    @property
+    def paged(self) -> tuple[Any, ...]:
         """The values on a page without a kernel."""
-        return self.on_page or self.options
-
-    def text(self, value):
-        """What readers see of a value."""
-        return self.texts[self.options.index(value)]
+        return tuple(_now(self.given_on_page)) or self.options
 
 
-def menu(name, label, options, on_page=()):
-    """A menu; ``options`` maps each value to its text, or is a sequence of texts."""
-    texts = options if isinstance(options, dict) else {value: str(value) for value in options}
-    return Control(name, label, tuple(texts), tuple(texts.values()), MENU, tuple(on_page))
+def _now(given: Any) -> Any:
+    """What was given, or what the function that was given returns now."""
+    return given() if callable(given) else given
 
 
-def slider(name, label, values, text=str, on_page=()):
-    """A slider over some values in ascending order."""
-    values = tuple(values)
-    return Control(name, label, values, tuple(map(text, values)), SLIDER, tuple(on_page))
+def _kept(given: Any) -> Any:
+    """What was given in a form that can be read again and again."""
+    return given if callable(given) or isinstance(given, Mapping) else tuple(given)
+
+
+def menu(
+    name: str,
+    label: str,
+    options: Options | Callable[[], Options],
+    on_page: Iterable[Any] | Callable[[], Iterable[Any]] = (),
+) -> Control:
+    """A menu.
+
+    Parameters
+    ----------
+    name, label : str
+    options : mapping, iterable or callable
+        The text of each value, or texts that are their own values, or a function that
+        returns either whenever the menu is built.
+    on_page : iterable or callable, optional
+        The values for which states are precomputed, or a function that returns them; by
+        default all.
+
+    Returns
+    -------
+    Control
+
+    Examples
+    --------
+    >>> menu("norm", "norm", {1: "L1", 2: "L2"}, on_page=[2]).options
+    (1, 2)
+    """
+    return Control(name, label, _kept(options), MENU, _kept(on_page))
+
+
+def slider(
+    name: str,
+    label: str,
+    values: Iterable[Any],
+    text: Callable[[Any], str] = str,
+    on_page: Iterable[Any] = (),
+) -> Control:
+    """A slider over some values in ascending order.
+
+    Parameters
+    ----------
+    name, label : str
+    values : iterable
+    text : callable, optional
+        What readers see of a value.
+    on_page : iterable, optional
+        The values for which states are precomputed; by default all.
+
+    Returns
+    -------
+    Control
+
+    Examples
+    --------
+    >>> slider("percentage", "share", range(0, 30, 10), "{}%".format).texts_by_value
+    {0: '0%', 10: '10%', 20: '20%'}
+    """
+    return Control(name, label, {value: text(value) for value in values}, SLIDER, tuple(on_page))
 
 
 @dataclass(frozen=True)
@@ -63,7 +133,7 @@ class Exploration:
     Attributes
     ----------
     name : str
-        Also of its file in the book.
+        Also the name of its file in the book.
     controls : tuple of Control
     scene : callable
         Takes a keyword for each control and returns the `Scene`.
@@ -75,12 +145,12 @@ class Exploration:
     """
 
     name: str
-    controls: tuple
-    scene: Callable
-    initial: dict
+    controls: tuple[Control, ...]
+    scene: Callable[..., Scene]
+    initial: dict[str, Any]
     film: str = ""
 
-    def checked(self, settings):
+    def checked(self, settings: Mapping[str, Any]) -> dict[str, Any]:
         """The settings, completed by the initial ones.
 
         Raises
@@ -90,19 +160,17 @@ class Exploration:
         """
         for name in settings:
             checks.choice(name, tuple(self.initial), "setting")
-        found = self.initial | settings
+        found = self.initial | dict(settings)
         for control in self.controls:
             checks.choice(found[control.name], control.options, control.label)
         return found
 
-    def computed(self, settings):
+    def computed(self, settings: Mapping[str, Any]) -> Scene:
         """The scene for a dict with a value for each control."""
         return self.scene(**settings)
 
-    def pages(self):
+    def pages(self) -> list[dict[str, Any]]:
         """All settings on a page, the last control the fastest."""
         names = [control.name for control in self.controls]
-        return [
-            dict(zip(names, values, strict=True))
-            for values in product(*(control.paged for control in self.controls))
-        ]
+        values = product(*(control.paged for control in self.controls))
+        return [dict(zip(names, row, strict=True)) for row in values]

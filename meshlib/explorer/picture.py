@@ -2,23 +2,30 @@
 
 import re
 from io import BytesIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..interpolation.interpolant import Interpolant
 from ..plotting import WIDTH, plot_contours, plot_mesh, spaced, style, value_limits
 from ..plotting.look import framed, pyplot
 from ..plotting.surfaces import colours_of
+from .scene import Scene
 
-DPI = 150
-ERRORS = "cividis"
-SHAPE = WIDTH, 0.6 * WIDTH
-LETTERS, COLUMNS = 10, 6  # points and columns of each of the two tables
-HEAD = 2.6  # its lines of labels, in lines of numbers
-NARROW = re.compile(r",? (?!\()")  # a new line for each word, but not for a unit
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DPI = 150  # pixels per inch
+ERRORS = "cividis"  # colours of errors
+SHAPE = WIDTH, 0.6 * WIDTH  # inches
+LETTERS = 10  # points, the size of the letters in a table
+COLUMNS = 6  # columns of the first of two tables
+HEAD = 2.6  # height of the labels above a table, in lines of numbers
+NARROW = re.compile(r",? (?!\()")  # where a label breaks: before each word, but not before a unit
 STAGES = "start", "adapted"
 
 
-def png(scene):
+def png(scene: Scene) -> bytes:
     """The picture of `figure` as a PNG file.
 
     Parameters
@@ -37,7 +44,7 @@ def png(scene):
     return file.getvalue()
 
 
-def figure(scene):
+def figure(scene: Scene) -> "Figure":
     """Adapted mesh over its interpolant, lines of constant value, error, and the quality table.
 
     Parameters
@@ -68,7 +75,7 @@ def figure(scene):
     return drawn
 
 
-def _draw_mesh(ax, u_h, limits):
+def _draw_mesh(ax: Any, u_h: Interpolant, limits: tuple[float, float]) -> None:
     levels = spaced(limits)
     bands = np.concatenate([[-np.inf], levels, [np.inf]])
     middles = np.linspace(*limits, len(levels) + 1)
@@ -80,16 +87,17 @@ def _draw_mesh(ax, u_h, limits):
     plot_mesh(ax, u_h.mesh, colour="white", ticks=True)
 
 
-def _draw_error(ax, scene):
+def _draw_error(ax: Any, scene: Scene) -> None:
     mesh, error = scene.after.mesh, scene.after.error
     worst = max(stage.largest_error for stage in (scene.before, scene.after))
     framed(ax, mesh)
-    x, y = np.linspace(*mesh.box, len(error)).T
+    low, high = mesh.box
+    x, y = np.linspace(low, high, len(error)).T
     image = ax.pcolormesh(x, y, error, cmap=ERRORS, vmin=0, vmax=worst, shading="gouraud")
     ax.figure.colorbar(image, ax=ax, fraction=0.046, pad=0.04)
 
 
-def _draw_table(ax, rows):
+def _draw_table(ax: Any, rows: list[tuple[str, str, str]]) -> None:
     ax.axis("off")
     labels, *columns = zip(*rows, strict=True)
     table = ax.table(

@@ -1,34 +1,23 @@
-"""The scripts of the explorer joined: a widget has a single file, and so has a page."""
+"""The scripts of the explorer, each joined from its modules: one for a widget, one for a page."""
 
 from pathlib import Path
 
+from .joining import constant, joined
+
 HERE = Path(__file__).parent
-SHARED = (
-    "atlas.js",
-    "measures.js",
-    "pens.js",
-    "drawing.js",
-    "inspection.js",
-    "saving.js",
-    "panels.js",
-    "view.js",
-)
+WIDGET, PAGE = (HERE / "js" / name for name in ("widget.js", "page.js"))
 
 
-def module():
-    """The ECMAScript module of the widget."""
-    return _joined(*SHARED, "widget.js")
+def module() -> str:
+    """The ES module of the widget, whose hooks anywidget expects as the default export."""
+    return f"{joined(WIDGET)}export default {constant(WIDGET)};\n"
 
 
-def classic():
+def classic() -> str:
     """The script of a page, which unlike a module a browser also loads from a file."""
-    return f"(() => {{\n{_joined(*SHARED, 'controls.js', 'page.js')}}})();\n"
+    return f'(() => {{\n"use strict";\n{joined(PAGE)}}})();\n'
 
 
-def styles():
+def styles() -> str:
     """The style sheet of both."""
     return (HERE / "view.css").read_text(encoding="utf-8")
-
-
-def _joined(*names):
-    return "\n".join((HERE / name).read_text(encoding="utf-8") for name in names)

@@ -1,7 +1,9 @@
 """The controls of the explorer where a kernel is: standard ipywidgets, linked to the view."""
 
+from typing import Any
+
 from ..errors import missing_extra
-from .controls import MENU
+from .controls import MENU, Control, Exploration
 
 try:
     import ipywidgets
@@ -14,23 +16,23 @@ TICK = 350  # milliseconds between frames of a film, as in controls.js
 LABEL = {"description_width": "6.5rem"}
 
 
-def build(controls, settings):
+def build(controls: tuple[Control, ...], settings: dict[str, Any]) -> dict[str, Any]:
     """A widget for each control, by name, set to the settings."""
     return {control.name: _widget(control, settings[control.name]) for control in controls}
 
 
-def _widget(control, value):
-    options = list(zip(control.texts, control.options, strict=True))
+def _widget(control: Control, value: Any) -> Any:
+    options = [(text, option) for option, text in control.texts_by_value.items()]
     kind = ipywidgets.Dropdown if control.kind == MENU else ipywidgets.SelectionSlider
     return kind(
         options=options, value=value, description=control.label, style=LABEL, layout={"width": "auto"}
     )
 
 
-def film(exploration, view):
-    """The widget that chooses the frame, and all that belongs to it.
+def film(exploration: Exploration, view: Any) -> tuple[Any, list[Any]]:
+    """The widget that chooses the frame, and it with all widgets that belong to it.
 
-    Linked in the browser, so that no kernel is asked for a frame.
+    They are linked in the browser, so that no kernel is asked for a frame.
     """
     if not exploration.film:
         switch = ipywidgets.ToggleButtons(options=STAGES, index=1, style={"button_width": "8rem"})
@@ -38,13 +40,13 @@ def film(exploration, view):
         return switch, [switch]
     frames = ipywidgets.IntSlider(max=0, description=exploration.film, style=LABEL, layout={"width": "auto"})
     play = ipywidgets.Play(interval=TICK)
-    for trait in ("max", "value"):  # what is first leads at the start
+    for trait in ("max", "value"):  # the first of a pair gives the value at the start
         ipywidgets.jslink((frames, trait), (play, trait))
     ipywidgets.jslink((frames, "value"), (view, "frame"))
     return frames, [frames, play]
 
 
-def assembled(controls, film, view):
+def assembled(controls: dict[str, Any], film: list[Any], view: Any) -> Any:
     """The controls side by side, the film, and the view below."""
     grid = ipywidgets.GridBox(
         [*controls.values(), *film], layout={"grid_template_columns": COLUMNS, "grid_gap": "0 1.5rem"}

@@ -14,6 +14,7 @@ from ..interpolation.record import Record
 from ..mesh.mesh import Mesh
 from ..mesh.topology import canonical
 from ..support.progress import bar
+from ..support.random_numbers import permutation
 from ..swapping.swapped import prepared
 
 ORDERS_AT_ONCE = 500  # how many a worker takes at most
@@ -79,7 +80,7 @@ def order_of(seed, number, n_edges):
     >>> order_of(0, 1, 5).tolist()
     [1, 4, 3, 0, 2]
     """
-    return np.random.default_rng([seed, number]).permutation(n_edges)
+    return permutation([seed, number], n_edges)
 
 
 def local_optima(

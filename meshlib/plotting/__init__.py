@@ -1,24 +1,27 @@
 """Pictures of meshes and of piecewise linear interpolants, with matplotlib.
 
-Every function draws on axes that it is given; `panels` and `representation` make
-a figure of their own, in the look that `style` sets.
+Most functions draw on axes that they are given; `panels`, `representation` and
+`function_view` make a new figure.  All colours and sizes are in `LOOK`.
 """
 
-from .look import ACCENT, FAINT, INK, PALETTE, SECOND, SHADE, WIDTH, bare, framed, panels, style
+from .look import bare, framed, panels, style
 from .meshes import edges_not_in, highlight_edges, mark_nodes, number_nodes, plot_mesh, shade_elements
 from .rows import function_view, representation
-from .surfaces import LEVELS, VIEW, plot_contours, plot_surface, spaced, value_limits
+from .settings import ACCENT, FAINT, INK, LEVELS, LOOK, PALETTE, SECOND, SHADE, VIEW, WIDTH, Look
+from .surfaces import plot_contours, plot_surface, spaced, value_limits
 
 __all__ = [
     "ACCENT",
     "FAINT",
     "INK",
     "LEVELS",
+    "LOOK",
     "PALETTE",
     "SECOND",
     "SHADE",
     "VIEW",
     "WIDTH",
+    "Look",
     "bare",
     "edges_not_in",
     "framed",

@@ -1,53 +1,24 @@
-"""The look of all figures: colours, sizes, and empty panels."""
+"""The look of the library for figures, and empty panels that have it."""
 
+from collections.abc import Iterator
 from contextlib import contextmanager
+from string import ascii_lowercase
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from .._typing import FloatArray, NDArray
 from ..errors import missing_extra
+from ..mesh.mesh import Mesh
+from .settings import LOOK, WIDTH
 
-# Okabe and Ito's palette, which readers with any kind of colour vision can tell apart.
-PALETTE = {
-    "black": "#000000",
-    "orange": "#E69F00",
-    "sky": "#56B4E9",
-    "green": "#009E73",
-    "yellow": "#F0E442",
-    "blue": "#0072B2",
-    "vermillion": "#D55E00",
-    "purple": "#CC79A7",
-}
-INK, FAINT = "#3a3a3a", "#c4c4c4"  # edges of the mesh itself, and of a mesh in the background
-SHADE, ACCENT, SECOND = PALETTE["yellow"], PALETTE["vermillion"], PALETTE["blue"]
-VALUES, BRIGHTEST = "viridis", 0.9  # the end of viridis is too bright for lines on white
-
-WIDTH = 9.0  # inches; 800 pixels on the page
-RESOLUTION = 120
-EDGE_WIDTH, THICK = 0.9, 2.2  # points
-FONT_SIZE = 10
-MARGIN = 0.03  # around a mesh, relative to its extent
-TICKS, TICK_DIGITS = 3, 9
-
-RC = {
-    "figure.dpi": RESOLUTION,
-    "savefig.dpi": RESOLUTION,
-    "figure.facecolor": "white",
-    "savefig.facecolor": "white",
-    "axes.facecolor": "white",
-    "text.color": "black",
-    "font.size": FONT_SIZE,
-    "font.family": "DejaVu Sans",
-    "axes.titlesize": FONT_SIZE,
-    "axes.labelsize": FONT_SIZE,
-    "xtick.labelsize": FONT_SIZE - 1,
-    "ytick.labelsize": FONT_SIZE - 1,
-    "axes.edgecolor": INK,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "axes.grid": False,
-    "svg.hashsalt": "meshlib",
-}
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
-def pyplot():
+def pyplot() -> ModuleType:
     """The module matplotlib.pyplot, or the error that names the extra."""
     try:
         import matplotlib.pyplot
@@ -57,8 +28,21 @@ def pyplot():
 
 
 @contextmanager
-def style():
-    """Context, or decorator, in which figures look alike; also white in dark mode.
+def style() -> Iterator[None]:
+    """Context, or decorator, in which matplotlib draws in the look of the library.
+
+    Figures are white in dark mode too.  At the end of the context the settings
+    that it changed are what they were before.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed.
+
+    See Also
+    --------
+    panels : A figure in this look.
+    Look : The values behind it.
 
     Examples
     --------
@@ -67,16 +51,18 @@ def style():
     ...     matplotlib.rcParams["figure.facecolor"]
     'white'
     """
-    settings = pyplot().rcParams
-    before = {name: settings[name] for name in RC}
-    settings.update(RC)
+    current, ours = pyplot().rcParams, LOOK.settings()
+    before = {name: current[name] for name in ours}
+    current.update(ours)
     try:
         yield
     finally:  # rc_context would also take back what a notebook sets up at its first figure
-        settings.update(before)
+        current.update(before)
 
 
-def panels(count=1, size=None, labels=False, rows=1):
+def panels(
+    count: int = 1, *, size: float | None = None, labels: bool = False, rows: int = 1
+) -> "tuple[Figure, NDArray[Any]]":
     """A figure with square panels in rows.
 
     Parameters
@@ -84,15 +70,27 @@ def panels(count=1, size=None, labels=False, rows=1):
     count : int
         Number of panels.
     size : float, optional
-        Side of a panel in inches; by default three of them fill the page.
+        Side of a panel in inches; by default three panels fill the page.
     labels : bool
         Whether to letter the panels (a), (b), ...
     rows : int
+        Number of rows into which the panels are divided.
 
     Returns
     -------
     figure : matplotlib.figure.Figure
     axes : (count,) ndarray of matplotlib.axes.Axes
+        The panels, row by row.
+
+    Raises
+    ------
+    ImportError
+        If matplotlib is not installed.
+
+    See Also
+    --------
+    plot_mesh, plot_contours : Draw in a panel.
+    style : The look for figures made elsewhere.
 
     Examples
     --------
@@ -107,35 +105,84 @@ def panels(count=1, size=None, labels=False, rows=1):
         figure, axes = pyplot().subplots(
             rows, columns, squeeze=False, layout="constrained", figsize=(columns * side, rows * side)
         )
-        for ax, letter in zip(axes.flat, "abcdefgh" if labels else "", strict=False):
+        for ax, letter in zip(axes.flat, ascii_lowercase if labels else "", strict=False):
             ax.set_title(f"({letter})", loc="left")
     return figure, axes.ravel()[:count]
 
 
-def bare(ax, mesh):
-    """Equal scales along x and y around a mesh, and no frame; returns the axes."""
+def bare(ax: "Axes", mesh: Mesh) -> "Axes":
+    """Equal scales along x and y around a mesh, and no frame.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+    mesh : Mesh
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The axes that were given.
+
+    See Also
+    --------
+    framed : With coordinates.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from meshlib import problems
+    >>> figure, (ax,) = panels()
+    >>> [round(float(x), 2) for x in bare(ax, problems.mesh("33")).get_xlim()]
+    [-0.03, 1.03]
+    >>> plt.close(figure)
+    """
     low, high = mesh.box
-    margin = MARGIN * (high - low).max()
+    margin = LOOK.page.margin * (high - low).max()
     ax.set(aspect="equal", xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin))
     ax.axis("off")
     return ax
 
 
-def framed(ax, mesh):
-    """As `bare`, but with coordinates along two sides; returns the axes."""
+def framed(ax: "Axes", mesh: Mesh) -> "Axes":
+    """Equal scales along x and y around a mesh, with coordinates along two sides.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+    mesh : Mesh
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The axes that were given.
+
+    See Also
+    --------
+    bare : Without coordinates.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from meshlib import problems
+    >>> figure, (ax,) = panels()
+    >>> [tick.get_text() for tick in framed(ax, problems.mesh("33")).get_xticklabels()]
+    ['0', '0.5', '1']
+    >>> plt.close(figure)
+    """
     bare(ax, mesh).axis("on")
     ax.spines[:].set_visible(False)
     for axis, column in zip((ax.xaxis, ax.yaxis), mesh.nodes.T, strict=True):
         axis.set_ticks(*round_ticks(column.min(), column.max()))
-    ax.tick_params(length=2, pad=2)
+    ax.tick_params(length=LOOK.text.tick_length, pad=LOOK.text.tick_pad)
     return ax
 
 
-def round_ticks(low, high):
+def round_ticks(low: float, high: float) -> tuple[FloatArray, list[str]]:
     """About three round numbers from low to high, and their labels."""
     from matplotlib.ticker import MaxNLocator
 
-    slack = MARGIN * (high - low)  # an end of 1e-8 still is 0 to the eye
-    ticks = MaxNLocator(TICKS, steps=[1, 2, 5, 10]).tick_values(low - slack, high + slack)
+    slack = LOOK.page.margin * (high - low)  # an end of 1e-8 looks like 0
+    locator = MaxNLocator(LOOK.text.ticks, steps=[1, 2, 5, 10])
+    ticks = np.asarray(locator.tick_values(low - slack, high + slack))
     ticks = ticks[(ticks >= low - slack) & (ticks <= high + slack)]
-    return ticks.clip(low, high), [f"{tick:g}" for tick in ticks.round(TICK_DIGITS)]
+    return ticks.clip(low, high), [f"{tick:g}" for tick in ticks.round(LOOK.text.tick_digits)]

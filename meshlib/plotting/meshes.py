@@ -1,43 +1,72 @@
-"""Meshes, with elements, edges and nodes to look at."""
+"""Meshes, and the edges in which two of them differ."""
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .look import ACCENT, EDGE_WIDTH, FONT_SIZE, INK, SHADE, THICK, bare, framed
+from .._typing import ArrayLike, IntArray
+from ..mesh.mesh import Mesh
+from .look import bare, framed
+from .marks import draw_edges, highlight_edges, mark_nodes, number_nodes, shade_elements
+from .settings import LOOK
 
-MARK_SIZE, NUMBER_DISTANCE = 5.0, 9.0  # points
-SHADE_OPACITY = 0.55
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import LineCollection
+    from matplotlib.typing import ColorType
 
 
 def plot_mesh(
-    ax, mesh, elements=None, edges=None, nodes=None, numbers=None, colour=INK, width=EDGE_WIDTH, ticks=False
-):
-    """Draw the edges of a mesh, and what is to be seen in it.
+    ax: "Axes",
+    mesh: Mesh,
+    *,
+    elements: ArrayLike | bool | None = None,
+    edges: ArrayLike | bool | None = None,
+    nodes: ArrayLike | bool | None = None,
+    numbers: ArrayLike | bool | None = None,
+    colour: "ColorType" = LOOK.colours.ink,
+    width: float = LOOK.lines.edge,
+    ticks: bool = False,
+) -> "LineCollection":
+    """Draw the edges of a mesh, and point out some of its elements, edges and nodes.
 
     Parameters
     ----------
     ax : matplotlib.axes.Axes
     mesh : Mesh
         Need not be valid: hanging nodes and overlapping elements can be shown.
-    elements, edges : array_like of int, optional
-        Numbers of those to highlight; for other colours call `shade_elements` and
-        `highlight_edges`.
-    nodes, numbers : array_like of int or True, optional
-        Nodes to mark, and nodes to number, from 0; True for all of them.
-    colour : str
+    elements, edges : array_like of int or bool, or True, optional
+        Numbers of the elements to shade and of the edges to highlight; or a mask of
+        them; True for all.  For other colours call `shade_elements` and `highlight_edges`.
+    nodes, numbers : array_like of int or bool, or True, optional
+        Nodes to mark, and nodes to label with their numbers, which count from 0; or
+        a mask of them; True for all.
+    colour : colour of matplotlib
+        Colour of the edges.
     width : float
-        Of the edges, in points.
+        Width of the edges in points.
     ticks : bool
-        Whether coordinates are shown.
+        Whether coordinates are shown along two sides.
 
     Returns
     -------
     matplotlib.collections.LineCollection
+        The edges, in the order of ``mesh.edges``.
+
+    Raises
+    ------
+    MeshError
+        If the mesh has no node, edge or element of a given number, or a mask has another length.
+
+    See Also
+    --------
+    meshlib.Mesh.plot : A method that needs no axes.
+    plot_contours : Lines of constant value over a mesh.
 
     Examples
     --------
     >>> import matplotlib.pyplot as plt
-    >>> from meshlib import plotting
-    >>> from meshlib import problems
+    >>> from meshlib import plotting, problems
     >>> figure, (ax,) = plotting.panels()
     >>> lines = plot_mesh(ax, problems.mesh("81"), nodes=True)
     >>> len(lines.get_segments())
@@ -45,7 +74,7 @@ def plot_mesh(
     >>> plt.close(figure)
     """
     framed(ax, mesh) if ticks else bare(ax, mesh)
-    lines = draw_edges(ax, mesh, slice(None), colour, width, zorder=2)
+    lines = draw_edges(ax, mesh, True, color=colour, linewidth=width, zorder=2)
     if elements is not None:
         shade_elements(ax, mesh, elements)
     if edges is not None:
@@ -57,66 +86,22 @@ def plot_mesh(
     return lines
 
 
-def highlight_edges(ax, mesh, edges, colour=ACCENT, width=THICK, linestyle="-"):
-    """Draw some edges in colour; returns the LineCollection."""
-    return draw_edges(ax, mesh, edges, colour, width, linestyle=linestyle, zorder=3)
+def edges_not_in(mesh: Mesh, other: Mesh) -> IntArray:
+    """Numbers of the edges of a mesh that another mesh with the same nodes lacks.
 
+    Parameters
+    ----------
+    mesh, other : Mesh
+        Edges are compared by the numbers of their two nodes.
 
-def draw_edges(ax, mesh, edges, colour, width, **options):
-    from matplotlib.collections import LineCollection
+    Returns
+    -------
+    (n,) ndarray of int
+        Rows of ``mesh.edges``, in ascending order.
 
-    return ax.add_collection(
-        LineCollection(
-            mesh.nodes[mesh.edges[edges]], colors=colour, linewidths=width, capstyle="round", **options
-        )
-    )
-
-
-def shade_elements(ax, mesh, elements, colour=SHADE, opacity=SHADE_OPACITY):
-    """Fill some elements with a colour; returns the PolyCollection."""
-    from matplotlib.collections import PolyCollection
-
-    return ax.add_collection(
-        PolyCollection(mesh.corners[elements], facecolors=colour, edgecolors="none", alpha=opacity, zorder=1)
-    )
-
-
-def mark_nodes(ax, mesh, nodes=True, colour=INK, size=MARK_SIZE):
-    """Mark some nodes, or all with True, by discs; returns the Line2D."""
-    x, y = mesh.nodes[slice(None) if nodes is True else nodes].T
-    return ax.plot(x, y, "o", color=colour, markersize=size, zorder=4, clip_on=False)[0]
-
-
-def number_nodes(ax, mesh, nodes=True, labels=None, distance=NUMBER_DISTANCE, size=FONT_SIZE):
-    """Write numbers, or other labels, where they cross no edge; returns the texts."""
-    nodes = np.arange(mesh.n_nodes) if nodes is True else np.asarray(nodes)
-    return [
-        ax.annotate(
-            str(label),
-            mesh.nodes[node],
-            distance * _free_direction(mesh, node),
-            textcoords="offset points",
-            size=size,
-            ha="center",
-            va="center",
-            zorder=5,
-        )
-        for node, label in zip(nodes, nodes if labels is None else labels, strict=True)
-    ]
-
-
-def _free_direction(mesh, node):
-    """Unit vector into the widest angle between the edges at a node."""
-    ends = mesh.edges[(mesh.edges == node).any(axis=1)]
-    away = mesh.nodes[ends.sum(axis=1) - node] - mesh.nodes[node]
-    angle = np.sort(np.arctan2(away[:, 1], away[:, 0]))
-    gap = np.diff(angle, append=angle[0] + 2 * np.pi)
-    middle = angle[gap.argmax()] + gap.max() / 2
-    return np.array([np.cos(middle), np.sin(middle)])
-
-
-def edges_not_in(mesh, other):
-    """Numbers of the edges of a mesh that another mesh on the same nodes does not have.
+    See Also
+    --------
+    highlight_edges : Draw these edges.
 
     Examples
     --------

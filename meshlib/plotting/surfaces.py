@@ -1,42 +1,58 @@
 """Interpolants and functions, as surfaces and by their lines of constant value."""
 
 from functools import lru_cache
+from numbers import Integral
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import problems
+from .._typing import ArrayLike, FloatArray, Function
 from ..interpolation.interpolant import Interpolant
+from ..mesh.mesh import Mesh
 from ..refinement.refined import refined
-from .look import BRIGHTEST, EDGE_WIDTH, FAINT, INK, VALUES, bare, framed, pyplot, round_ticks
-from .meshes import draw_edges, plot_mesh
+from .look import bare, framed, pyplot, round_ticks
+from .marks import draw_edges
+from .meshes import plot_mesh
+from .settings import LOOK
 
-VIEW = 32, -60  # elevation and azimuth of the eye, degrees
-HEIGHT = 0.62  # of a surface, in units of the width of its domain
-ZOOM = 1.22
-TICK_PAD, LABEL_PAD = -2, -11  # points; matplotlib leaves much room
-LIGHT = np.array([0.1, -0.55, 0.83])
-SHADOW = 0.55  # how much darker a facet gets that is turned away from the light
-LEVELS = 10
-FINE = 4  # bisections of the 81-node mesh on which a function counts as smooth
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.tri import TriContourSet
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    from mpl_toolkits.mplot3d.axes3d import Axes3D
 
 
-def plot_surface(ax, surface, limits=None, view=None):
+def plot_surface(
+    ax: "Axes3D",
+    surface: Interpolant | Function,
+    *,
+    limits: tuple[float, float] | None = None,
+    view: tuple[float, float] | None = None,
+) -> "Poly3DCollection":
     """Draw an interpolant, element by element, or a smooth function as a surface.
 
     Parameters
     ----------
     ax : mpl_toolkits.mplot3d.axes3d.Axes3D
     surface : Interpolant or callable
-        A function u(x, y) is drawn over the unit square, without edges.
+        A vectorised function u(x, y) is drawn over the unit square, without edges.
     limits : (float, float), optional
-        Values at the ends of the vertical axis and of the colours.
+        Values at the ends of the vertical axis and of the colours; by default the
+        smallest and the largest nodal value.
     view : (float, float), optional
-        Elevation and azimuth of the eye in degrees; by default `VIEW`, or from the
-        other side if the surface would hide its slope from there.
+        Elevation and azimuth of the eye in degrees; by default `VIEW`, or its mirror
+        image from behind if the surface falls away from the eye there.
 
     Returns
     -------
     mpl_toolkits.mplot3d.art3d.Poly3DCollection
+        The elements, in the order of ``mesh.elements``.
+
+    See Also
+    --------
+    plot_contours : Lines of constant value in the plane.
+    representation : Mesh, surface and lines side by side.
 
     Examples
     --------
@@ -54,12 +70,11 @@ def plot_surface(ax, surface, limits=None, view=None):
     corners = np.column_stack([u_h.mesh.nodes, u_h.values])[u_h.mesh.elements]
     view = view or _uphill(u_h)
     colours = _lit(corners, limits, view)
-    own_edges = surface is u_h
     facets = Poly3DCollection(
         corners,
         facecolors=colours,
-        edgecolors=INK if own_edges else colours,
-        linewidths=EDGE_WIDTH / 2,
+        edgecolors=LOOK.colours.ink if surface is u_h else colours,
+        linewidths=LOOK.lines.thin,
         clip_on=False,
     )
     ax.add_collection3d(facets)
@@ -67,61 +82,78 @@ def plot_surface(ax, surface, limits=None, view=None):
     return facets
 
 
-def _box(ax, mesh, limits, view):
+def _box(ax: "Axes3D", mesh: Mesh, limits: tuple[float, float], view: tuple[float, float]) -> None:
+    """Axes around a surface: ends along x and y, round numbers along u, and the view."""
     low, high = mesh.box
     for axis, name, *ends in zip((ax.xaxis, ax.yaxis), "xy", low, high, strict=True):
         axis.set_ticks(ends, [f"{end:.3g}" for end in ends])
         axis.set_label_text(name)
-        axis.labelpad = LABEL_PAD
+        axis.labelpad = LOOK.surface.label_pad
     ax.zaxis.set_ticks(*round_ticks(*limits))
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-        axis.set_tick_params(pad=TICK_PAD)
+        axis.set_tick_params(pad=LOOK.surface.tick_pad)
         axis.set_pane_color("white")
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=limits)
     ax.grid(False)
-    ax.set_box_aspect((*(high - low) / (high - low).max(), HEIGHT), zoom=ZOOM)
+    sides = (high - low) / (high - low).max()
+    ax.set_box_aspect((*sides, LOOK.surface.height), zoom=LOOK.surface.zoom)
     ax.view_init(*view)
 
 
-def _uphill(u_h):
-    """The view, from in front or from the back, that has the surface rise away from the eye."""
-    elevation, azimuth = VIEW
+def _uphill(u_h: Interpolant) -> tuple[float, float]:
+    """The view, from the front or from behind, in which the surface rises away from the eye."""
+    elevation, azimuth = LOOK.surface.view
     slope = u_h.mesh.areas @ u_h.gradients
     towards = np.array([np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))])
     return (elevation, azimuth) if slope @ towards <= 0 else (elevation, -azimuth)
 
 
-def _lit(corners, limits, view):
+def _lit(corners: FloatArray, limits: tuple[float, float], view: tuple[float, float]) -> FloatArray:
     """Colours of facets by value, darker where they are turned away from the light."""
-    extent = [np.ptp(corners[..., :2]), np.ptp(corners[..., :2]), np.ptp(limits) / HEIGHT]
+    extent = [np.ptp(corners[..., :2]), np.ptp(corners[..., :2]), np.ptp(limits) / LOOK.surface.height]
     a, b, c = np.moveaxis(corners / extent, 1, 0)
     normal = np.cross(b - a, c - a)
-    lamp = LIGHT * [1, -np.sign(view[1]) or 1, 1]  # behind the eye
+    lamp = np.array(LOOK.surface.light) * [1, -np.sign(view[1]) or 1, 1]  # behind the eye
     light = (normal @ lamp) / (np.linalg.norm(normal, axis=1) * np.linalg.norm(lamp))
     colours = colours_of(corners[..., 2].mean(axis=1), limits)
-    colours[:, :3] *= 1 - SHADOW * (1 - light.clip(0, 1))[:, None]
+    colours[:, :3] *= 1 - LOOK.surface.shadow * (1 - light.clip(0, 1))[:, None]
     return colours
 
 
-def plot_contours(ax, surface, levels=LEVELS, limits=None, ticks=False):
-    """Draw lines of constant value, of an interpolant over its own mesh.
+def plot_contours(
+    ax: "Axes",
+    surface: Interpolant | Function,
+    *,
+    levels: int | ArrayLike = LOOK.surface.levels,
+    limits: tuple[float, float] | None = None,
+    ticks: bool = False,
+) -> "TriContourSet | None":
+    """Draw lines of constant value, and below them the mesh of an interpolant.
 
     Parameters
     ----------
     ax : matplotlib.axes.Axes
     surface : Interpolant or callable
-        A function u(x, y) is drawn over the unit square, without a mesh.
+        A vectorised function u(x, y) is drawn over the unit square, without a mesh.
     levels : int or array_like of float
-        Number of lines, evenly spaced inside the limits, or their values.
+        Number of lines, evenly spaced inside the limits, or their values in
+        ascending order.
     limits : (float, float), optional
-        Values at the ends of the colours.
+        Values at the ends of the colours; by default the smallest and the largest
+        nodal value.
     ticks : bool
-        Whether coordinates are shown.
+        Whether coordinates are shown along two sides.
 
     Returns
     -------
     matplotlib.tri.TriContourSet or None
         None if the surface takes none of the values.
+
+    See Also
+    --------
+    meshlib.Interpolant.plot : A method that needs no axes.
+    plot_surface : The graph in space.
+    spaced : The values of the lines.
 
     Examples
     --------
@@ -135,28 +167,51 @@ def plot_contours(ax, surface, levels=LEVELS, limits=None, ticks=False):
     """
     u_h, limits = _interpolant(surface), value_limits(surface, limits=limits)
     if surface is u_h:
-        plot_mesh(ax, u_h.mesh, colour=FAINT, width=EDGE_WIDTH / 2)
+        plot_mesh(ax, u_h.mesh, colour=LOOK.colours.faint, width=LOOK.lines.thin)
     framed(ax, u_h.mesh) if ticks else bare(ax, u_h.mesh)
-    draw_edges(ax, u_h.mesh, u_h.mesh.boundary, INK, EDGE_WIDTH, zorder=2)
-    levels = spaced(limits, levels) if np.isscalar(levels) else np.asarray(levels, dtype=float)
-    levels = levels[(levels > u_h.values.min()) & (levels < u_h.values.max())]
-    return _contours(ax, u_h, levels, limits) if levels.size else None
+    draw_edges(ax, u_h.mesh, u_h.mesh.boundary, color=LOOK.colours.ink, linewidth=LOOK.lines.edge, zorder=2)
+    lines = spaced(limits, levels) if isinstance(levels, Integral) else np.asarray(levels, dtype=float)
+    lines = lines[(lines > u_h.values.min()) & (lines < u_h.values.max())]
+    return _contours(ax, u_h, lines, limits) if lines.size else None
 
 
-def _contours(ax, u_h, levels, limits):
+def _contours(
+    ax: "Axes", u_h: Interpolant, levels: FloatArray, limits: tuple[float, float]
+) -> "TriContourSet":
+    """Lines of an interpolant at some of its values."""
+    from matplotlib.tri import Triangulation
+
+    x, y = u_h.mesh.nodes.T
     return ax.tricontour(
-        *u_h.mesh.nodes.T,
-        u_h.mesh.elements,
+        Triangulation(x, y, u_h.mesh.elements),
         u_h.values,
         levels=levels,
         zorder=3,
         colors=colours_of(levels, limits),
-        linewidths=1.5 * EDGE_WIDTH,
+        linewidths=LOOK.lines.contour,
     )
 
 
-def spaced(limits, count=LEVELS):
-    """Values evenly spaced inside the limits, and away from plateaux at the limits.
+def spaced(limits: tuple[float, float], count: int = LOOK.surface.levels) -> FloatArray:
+    """Values evenly spaced inside the limits, half a step away from each.
+
+    A function that is constant at one of the limits is thus not crossed by lines there.
+
+    Parameters
+    ----------
+    limits : (float, float)
+        Smallest and largest value.
+    count : int
+        Number of values.
+
+    Returns
+    -------
+    (count,) ndarray of float
+
+    See Also
+    --------
+    value_limits : Limits of surfaces.
+    plot_contours : Lines at these values.
 
     Examples
     --------
@@ -167,8 +222,34 @@ def spaced(limits, count=LEVELS):
     return low + (high - low) * (np.arange(count) + 0.5) / count
 
 
-def value_limits(*surfaces, limits=None):
-    """Smallest and largest value of some surfaces, or the limits if they are given."""
+def value_limits(
+    *surfaces: Interpolant | Function, limits: tuple[float, float] | None = None
+) -> tuple[float, float]:
+    """Smallest and largest value of some surfaces, or the limits if they are given.
+
+    Parameters
+    ----------
+    *surfaces : Interpolant or callable
+        A vectorised function u(x, y) counts on the unit square.
+    limits : (float, float), optional
+        Returned as given.
+
+    Returns
+    -------
+    (float, float)
+        Of a constant c the limits are c - 0.5 and c + 0.5.
+
+    See Also
+    --------
+    spaced : Values between the limits.
+
+    Examples
+    --------
+    >>> from meshlib import Interpolant, Mesh
+    >>> mesh = Mesh([[0, 0], [1, 0], [0, 1]], [[0, 1, 2]])
+    >>> value_limits(Interpolant(mesh, [3, 1, 2]), Interpolant(mesh, [0, 1, 0]))
+    (0.0, 3.0)
+    """
     if limits is not None:
         return limits
     values = np.concatenate([_interpolant(surface).values for surface in surfaces])
@@ -176,19 +257,22 @@ def value_limits(*surfaces, limits=None):
     return (low, high) if low < high else (low - 0.5, high + 0.5)
 
 
-def colours_of(values, limits):
-    """Colours (n, 4) that stand for values between the limits."""
+def colours_of(values: ArrayLike, limits: tuple[float, float]) -> FloatArray:
+    """Colours that stand for values between the limits: red, green, blue and opacity in four columns."""
     share = (np.asarray(values) - limits[0]) / (limits[1] - limits[0])
-    return pyplot().get_cmap(VALUES)(BRIGHTEST * share.clip(0, 1))
+    colours = pyplot().get_cmap(LOOK.colours.values)
+    return colours(LOOK.colours.brightest * share.clip(0, 1))
 
 
-def _interpolant(surface):
+def _interpolant(surface: Interpolant | Function) -> Interpolant:
+    """An interpolant as it is, and of a function one on a fine mesh of the unit square."""
     return surface if isinstance(surface, Interpolant) else Interpolant(_fine_mesh(), surface)
 
 
 @lru_cache(maxsize=1)
-def _fine_mesh():
+def _fine_mesh() -> Mesh:
+    """A mesh on which a function looks smooth."""
     mesh = problems.mesh("81")
-    for _ in range(FINE):
+    for _ in range(LOOK.surface.refinements):
         mesh = refined(mesh, np.zeros(mesh.n_nodes), fraction=1).mesh
     return mesh

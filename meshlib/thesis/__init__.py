@@ -1,5 +1,6 @@
-"""Everything that belongs to this report and to nothing else.
+"""The report on the thesis: what it prints, recomputed and shown.
 
-`printed` holds the numbers of the thesis as data, `experiments` says how each comes
-about, `scoreboard` compares, `tables` and `figures` show.
+`record` holds the printed numbers as data, the certificates and the verdicts; `search` finds
+certificates.  `studies` computes, `scoreboard` compares with the print, `tables`, `figures`
+and `explorers` show.
 """

@@ -1,5 +1,7 @@
 """The explorers of the report: what can be chosen in each, and what comes of it."""
 
+from typing import Any
+
 import numpy as np
 
 from .. import criteria, problems
@@ -16,35 +18,45 @@ from .studies.section_7_7a_limit import lattice
 NORM_NAMES = {1: "L1", 2: "L2", "max": "max", "lexicographic": "lexicographic"}
 THESIS = "SR1", "SR2", "SR3", "DD1"
 NONE = "none"
-PERCENTAGES = range(0, 101, 5)
-PASSES = 3
-MOST_NODES = 500  # beyond which a refinement is not repeated
+PERCENTAGES = range(0, 101, 5)  # shares of the elements
+PASSES = 3  # refinements, one after the other
+MOST_NODES = 500  # nodes of a mesh beyond which a refinement is not repeated
 NATURAL = "natural"
 EQUAL, BY_DATA, SLIDING = "equal", "by the data", "by the data, boundary sliding"
 ON_PAGE_SPRINGS = EQUAL, SLIDING
-MOST_SWEEPS = 25
+MOST_SWEEPS = 25  # sweeps of moving nodes that a film shows
+TOLD_BY_ABN = "smallest-angle", "largest-angle", "gradient-spread"  # criteria of elements and nodes
 SIZES = 10, 20, 30, 50, 75, 100, 150, 200, 300, 400, 500
 
 
 def _criteria():
-    """Label of each cost that swaps can lower; names that abbreviate the title stand before it."""
-    found = {
-        name: criteria.get(name).title or name
-        for place in ("edge", "element")
-        for name in criteria.names(place)
-    }
+    """Label of each registered criterion; names that abbreviate the title stand before it."""
+    found = {name: criteria.get(name).title or name for name in criteria.names()}
     return {
         name: title if "-" in name or title == name else f"{name.upper()}: {title}"
         for name, title in found.items()
     }
 
 
+def _quick_criteria():
+    """Names of the criteria by which swaps are quick enough for all settings of a page."""
+    return criteria.names("edge") + criteria.names("element")
+
+
+def _functions():
+    return tuple(problems.functions)
+
+
 def _function(on_page=THESIS):
-    return menu("function", "function", tuple(problems.functions), on_page)
+    return menu("function", "function", _functions, on_page)
 
 
 def _nodes(on_page=("33", "81")):
-    return menu("nodes", "nodes", problems.names(), on_page)
+    return menu("nodes", "nodes", problems.names, on_page)
+
+
+def _criterion(on_page=_quick_criteria):
+    return menu("criterion", "criterion", _criteria, on_page)
 
 
 # -- swap by swap (chapter 3) ----------------------------------------------------------------
@@ -59,14 +71,14 @@ def _swaps(function, nodes, criterion, norm):
 
 SWAPS = Exploration(
     "swaps",
-    (_function(), _nodes(), menu("criterion", "criterion", _criteria()), menu("norm", "norm", NORM_NAMES)),
+    (_function(), _nodes(), _criterion(), menu("norm", "norm", NORM_NAMES)),
     _swaps,
     {"function": "SR1", "nodes": "33", "criterion": "jnd", "norm": 2},
     "try",
 )
 
 
-def swaps(**settings):
+def swaps(**settings: Any) -> Explorer:
     """The local optimisation procedure, one tried swap after the other."""
     return Explorer(SWAPS, **settings)
 
@@ -88,8 +100,12 @@ def _refinement(function, nodes, swap, percentage, refine_by, mark, split):
         start,
         _passes(mesh, u, percentage, refine_by, mark, split),
         swaps=swaps,
-        cost=refine_by if refine_by in criteria.names("edge") else "abn",
+        cost="abn" if refine_by in TOLD_BY_ABN else refine_by,
     )
+
+
+def _swap_first():
+    return {NONE: NONE} | _criteria()
 
 
 def _passes(mesh, u, percentage, refine_by, mark, split):
@@ -110,9 +126,9 @@ REFINEMENT = Exploration(
     (
         _function(),
         _nodes(),
-        menu("swap", "swap first", {NONE: NONE} | _criteria(), (NONE,)),
+        menu("swap", "swap first", _swap_first, (NONE,)),
         slider("percentage", "share", PERCENTAGES, "{}%".format),
-        menu("refine_by", "by cost", {name: name for name in criteria.names()}, ("abn",)),
+        menu("refine_by", "by cost", criteria.names, ("abn",)),
         menu("mark", "mark by", MARKS),
         menu("split", "split", tuple(SPLITS)),
     ),
@@ -130,7 +146,7 @@ REFINEMENT = Exploration(
 )
 
 
-def refinement(**settings):
+def refinement(**settings: Any) -> Explorer:
     """A share of the elements refined, again and again."""
     return Explorer(REFINEMENT, **settings)
 
@@ -151,7 +167,7 @@ LIMITS = Exploration(
     (
         _function(),
         _nodes(("81", "33")),
-        menu("criterion", "criterion", _criteria()),
+        _criterion(),
         slider("min_angle", "least angle", range(31), "{}°".format),
     ),
     _limits,
@@ -159,7 +175,7 @@ LIMITS = Exploration(
 )
 
 
-def limits(**settings):
+def limits(**settings: Any) -> Explorer:
     """Swapping when small angles are refused (section 6.1)."""
     return Explorer(LIMITS, **settings)
 
@@ -179,7 +195,7 @@ ORDERS = Exploration(
     (
         _function(),
         _nodes(("33", "33-refined", "81")),
-        menu("criterion", "criterion", _criteria(), ("jnd", "abn", "dlp", "dfp")),
+        _criterion(on_page=("jnd", "abn", "dlp", "dfp")),
         slider("order", "order", (NATURAL, *range(20))),
     ),
     _orders,
@@ -187,7 +203,7 @@ ORDERS = Exploration(
 )
 
 
-def orders(**settings):
+def orders(**settings: Any) -> Explorer:
     """Swapping by the natural order of the edges and by random ones (section 6.3)."""
     return Explorer(ORDERS, **settings)
 
@@ -212,7 +228,7 @@ MOVEMENT = Exploration(
 )
 
 
-def movement(**settings):
+def movement(**settings: Any) -> Explorer:
     """Nodes moved by springs, sweep by sweep (sections 5.4 and 7.4)."""
     return Explorer(MOVEMENT, **settings)
 
@@ -239,8 +255,8 @@ APPROXIMATION = Exploration(
 )
 
 
-def approximation(**settings):
-    """The best mesh of so many nodes that `approximate` finds, beside a lattice."""
+def approximation(**settings: Any) -> Explorer:
+    """Meshes of a given number of nodes that `approximate` finds, beside a lattice."""
     return Explorer(APPROXIMATION, **settings)
 
 

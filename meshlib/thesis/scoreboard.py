@@ -1,20 +1,21 @@
-"""Every printed number against ours: the verdicts, counted from computed values."""
+"""Every printed number beside the one computed today, with a verdict."""
 
 import json
 from collections import Counter
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import asdict, dataclass
-from importlib.resources import files
+from pathlib import Path
 
 from .record import certificates, printed
 from .studies import experiments
 
-RECORD = files(__package__) / "record" / "verdicts.json"
+RECORD = Path(__file__).parent / "record" / "verdicts.json"
 VERDICTS = ("exact", "reachable", "misprint", "open")
 
 
 @dataclass(frozen=True)
 class Line:
-    """A printed number, ours, and the verdict."""
+    """A printed number, the one computed today, and the verdict."""
 
     id: str
     table: str
@@ -26,12 +27,12 @@ class Line:
     recipe: str
 
 
-def verdict(number, value, kind):
-    """How far a printed number is accounted for.
+def verdict(number: printed.Printed, value: float, kind: str) -> str:
+    """How far a computed value accounts for a printed number.
 
     ``"exact"``: a deterministic recipe gives all printed digits; ``"reachable"``: a
-    certificate does; ``"misprint"``: ours differs by one unit of the last digit and
-    the evidence is on record; ``"open"``: not reached.
+    certificate does; ``"misprint"``: the value differs by at most one unit of the last
+    digit and the evidence against the print is on record; ``"open"``: not reached.
 
     Examples
     --------
@@ -47,18 +48,18 @@ def verdict(number, value, kind):
     return "open"
 
 
-def line(number):
-    """Recompute one printed number, without a certificate if that gives it."""
+def line(number: printed.Printed) -> Line:
+    """Recompute a printed number, with the better verdict of certificate and natural order."""
     found = [_judged(number, result) for result in _results(number.experiment)]
     return min(found, key=lambda entry: VERDICTS.index(entry.verdict))
 
 
-def _results(key):
-    """What is computed for an experiment: by its certificate, and in natural order."""
+def _results(key: str) -> list[experiments.Result]:
+    """The results of an experiment: by its certificate if it has one, and in natural order."""
     return [result for result in (experiments.run(key), experiments.natural(key)) if result]
 
 
-def _judged(number, result):
+def _judged(number: printed.Printed, result: experiments.Result) -> Line:
     value = result.measures[number.measure, number.statistic]
     return Line(
         number.id,
@@ -72,7 +73,7 @@ def _judged(number, result):
     )
 
 
-def lines(table=None):
+def lines(table: str | None = None) -> list[Line]:
     """Recompute all printed numbers, or those of one table.
 
     Examples
@@ -83,25 +84,25 @@ def lines(table=None):
     return [line(n) for n in printed.numbers() if table is None or n.table == printed.heading(table)]
 
 
-def counts(board):
-    """Number of lines by verdict, in the order exact, reachable, misprint, open."""
+def counts(board: Iterable[Line]) -> dict[str, int]:
+    """Number of lines with each verdict, in the order exact, reachable, misprint, open."""
     found = Counter(entry.verdict for entry in board)
     return {verdict: found[verdict] for verdict in VERDICTS}
 
 
-def summary(board):
+def summary(board: Collection[Line]) -> str:
     """The counts in one sentence."""
     listed = ", ".join(f"{n} {verdict}" for verdict, n in counts(board).items())
     return f"{len(board)} printed numbers: {listed}"
 
 
-def as_json(board):
+def as_json(board: Iterable[Line]) -> list[dict]:
     """The lines as a list of dictionaries."""
     return [asdict(entry) for entry in board]
 
 
-def as_text(board):
-    """The lines as a table of plain text, closed by the counts."""
+def as_text(board: Collection[Line]) -> str:
+    """The lines as a table of plain text, with the counts below it."""
     rows = [f"{'id':<40} {'printed':>8} {'reproduced':>10}  {'verdict':<9}  recipe"]
     rows += [
         f"{e.id:<40} {e.printed:>8} {printed.digits(e.reproduced, e.printed, 2):>10}  "
@@ -114,53 +115,55 @@ def as_text(board):
 # -- against the record -----------------------------------------------------------------
 
 
-def recorded():
-    """The verdicts on record: id -> verdict."""
+def recorded() -> dict[str, str]:
+    """The verdicts on record: id of a printed number -> verdict."""
     return json.loads(RECORD.read_text())
 
 
-def record(board):
+def record(board: Iterable[Line]) -> None:
     """Put the verdicts on record."""
     RECORD.write_text(json.dumps({entry.id: entry.verdict for entry in board}, indent=1) + "\n")
 
 
-def faults(board):
-    """What is worse than the record, and what is wrong with a certificate, a sentence for each.
+def faults(board: Collection[Line]) -> list[str]:
+    """Verdicts that are worse than on record, and certificates that do not hold.
 
     Parameters
     ----------
-    board : list of Line
+    board : collection of Line
 
     Returns
     -------
     list of str
+        A sentence for each fault.
     """
+    return [*_worse(board), *_wrong_certificates()]
+
+
+def _worse(board: Collection[Line]) -> Iterator[str]:
     known = recorded()
-    found = [
-        f"{e.id} is {e.verdict}, on record is {known.get(e.id, 'nothing')}"
-        for e in board
-        if VERDICTS.index(e.verdict) > VERDICTS.index(known.get(e.id, VERDICTS[0]))
-    ]
-    found += [f"{key} is on record and was not computed" for key in known.keys() - {e.id for e in board}]
+    for entry in board:
+        if VERDICTS.index(entry.verdict) > VERDICTS.index(known.get(entry.id, VERDICTS[0])):
+            yield f"{entry.id} is {entry.verdict}, on record is {known.get(entry.id, 'nothing')}"
+    for key in sorted(known.keys() - {entry.id for entry in board}):
+        yield f"{key} is on record and was not computed"
+
+
+def _wrong_certificates() -> Iterator[str]:
     for name in certificates.names():
         certificate = certificates.load(name)
-        wrong = [*_off(name, certificate), *certificate.faults()]
-        found += [f"certificate {name}: {fault}" for fault in wrong]
-    return found
+        for fault in (*_not_as_captioned(name, certificate), *certificate.faults()):
+            yield f"certificate {name}: {fault}"
 
 
-def _off(name, certificate):
-    """What of a certificate is not as in the caption of its column."""
+def _not_as_captioned(name: str, certificate: certificates.Certificate) -> list[str]:
+    """Where a certificate differs from the caption of its column."""
     experiment = experiments.EXPERIMENTS.get(name)
     if experiment is None:
         return ["no experiment has this name"]
     swap = experiment.operate
-    caption = {
-        "start": experiment.nodes,
-        "function": experiment.function,
-        "criterion": swap.criterion,
-        "norm": swap.norm,
-    }
+    start, function, criterion, norm = experiment.nodes, experiment.function, swap.criterion, swap.norm
+    caption = {"start": start, "function": function, "criterion": criterion, "norm": norm}
     return [
         f"{what} is {getattr(certificate, what)!r}, by the caption {expected!r}"
         for what, expected in caption.items()

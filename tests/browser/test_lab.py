@@ -1,6 +1,8 @@
 """An explorer in JupyterLab: the kernel computes states that no page has."""
 
+import inspect
 import os
+import re
 import socket
 import statistics
 import subprocess
@@ -10,21 +12,31 @@ from urllib.request import urlopen
 
 import nbformat
 import pytest
+from user_criteria import kink, registered
 from visiting import SHOWN, assert_numbers, skip_unless_timed
 
+from meshlib.criteria import Criterion
 from meshlib.thesis import explorers
 
 pytest.importorskip("jupyterlab")
 
-CODE = "from meshlib.thesis import explorers\nexplorers.swaps()"
+CODE = f"""from meshlib.thesis import explorers
+import numpy as np
+from meshlib.criteria import Criterion, plane_gradients, register
+
+{inspect.getsource(kink)}
+register(Criterion("kink", "edge", kink, "jump along x"))
+explorers.swaps()"""
 KERNEL = {"name": "python3", "display_name": "Python 3"}
 START_SECONDS, RUN_SECONDS, TRY_SECONDS = 120, 60, 10
 ON_DEMAND = 100  # milliseconds
-LATENCY = """([select, value]) => new Promise(done => {
+LATENCY = """([select, text]) => new Promise((done, fail) => {
+    const texts = Array.from(select.options, option => option.textContent.replaceAll('\u00a0', ' '));
     const title = document.querySelector('.mesh-explorer .title'), start = performance.now();
     const watcher = new MutationObserver(() => (watcher.disconnect(), done(performance.now() - start)));
     watcher.observe(title, { childList: true, characterData: true, subtree: true });
-    select.value = value;
+    setTimeout(() => fail(new Error(`nothing follows from ${text}, one of ${texts}`)), 30_000);
+    select.selectedIndex = texts.indexOf(text);
     select.dispatchEvent(new Event('change', { bubbles: true })); })"""
 
 
@@ -124,6 +136,22 @@ def test_the_player_leads_the_view(page):
     # stop, which goes back to the start; by a call, as a dialogue of JupyterLab may lie above
     page.locator(".widget-play button").nth(1).evaluate("button => button.click()")
     page.wait_for_function("() => document.querySelector('.mesh-explorer').shown().frame === 0")
+
+
+def test_a_user_defined_criterion_is_drawn_and_played_with_its_costs(page):
+    choose(page, "criterion", "KINK: jump along x")
+    choose(page, "function", "SR1")
+    with registered(Criterion("kink", "edge", kink, "jump along x")):
+        scene = explorers.SWAPS.computed(explorers.SWAPS.initial | {"criterion": "kink"})
+    page.locator(".widget-play button").first.evaluate("button => button.click()")
+    page.wait_for_function("() => document.querySelector('.mesh-explorer').shown().frame > 3")
+    page.locator(".widget-play button").first.evaluate("button => button.click()")
+    found, note = shown_by(page), page.locator(".mesh-explorer .note").text_content()
+    assert found["title"] == "SR1 on 33 nodes, KINK-L2"
+    assert_numbers(found, scene, found["frame"])
+    row = scene.trace[found["frame"] - 1]
+    costs = re.search(r"five edges: (\S+) before, (\S+) after", note).groups()
+    assert tuple(map(float, costs)) == pytest.approx((row["old"], row["new"]), rel=1e-3)
 
 
 def test_a_state_on_demand_is_there_at_once(page):

@@ -1,26 +1,35 @@
-"""Figures of the section on annealing: how far from the best, and how near."""
+"""Figures of section 7.6: how far from the best mesh swapping ends, and how near annealing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ... import plotting, problems
-from ...interpolation.interpolant import Interpolant
+from ... import Interpolant, plotting, problems
 from ..studies import section_7_6_beyond as beyond
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = ["annealed", "distances", "every_cost"]
 
 WAYS = {"start": ("black", ":"), "swapped": ("vermillion", "-"), "annealed": ("blue", "--")}
 BINS, RATIOS = 60, (1, 1.5, 2, 3, 5, 10)
 LOW, TALL = 3.1, 5.0  # inches
-LINEAR, MOST, TICKS = 1.0, 1000.0, (0, 0.5, 1, 10, 100)  # per cent: end of the linear part, and of all
-SIDES = {"swapped": -1, "annealed": 1}  # of a row
-SPREAD, APART = 0.14, 0.2  # of the dots, and between swapped and annealed, in rows
-FOUND, COLUMN, GUIDE = 0.955, 0.04, 0.5  # where the shares stand, in widths of the axes, and points
+LINEAR, MOST = 1.0, 1000.0  # per cent, where the linear part of an axis ends, and where the axis ends
+TICKS = (0, 0.5, 1, 10, 100)  # per cent
+SIDES = {"swapped": -1, "annealed": 1}  # above or below the middle of a row
+APART, SPREAD = 0.2, 0.14  # rows, distance of the dots from the middle, and how far they are spread
+FOUND, COLUMN = 0.955, 0.04  # widths of the axes, where the shares stand, and half their distance
+GUIDE, FINE_WIDTH = 0.5, 0.6  # points, widths of a guide line and of an edge
 SHOWN = "81", "SR3", "abn", 1
 CONTOURS = 6
-FINE_WIDTH = 0.6  # points, of edges
 
 
-def every_cost():
+def every_cost() -> Figure:
     """Costs of all meshes of twelve nodes, and where swapping and annealing end."""
     figure, axes = plotting.panels(len(beyond.LISTED), size=plotting.WIDTH / len(beyond.LISTED))
     figure.set_size_inches(plotting.WIDTH, LOW)
@@ -34,9 +43,10 @@ def every_cost():
     return figure
 
 
-def _histogram(ax, costs, ends):
+def _histogram(ax: Axes, costs: np.ndarray, ends: Sequence[float]) -> None:
+    """Costs of all meshes relative to the least, with lines at those of start, swapped and annealed."""
     ratios = costs / costs.min()
-    ax.hist(ratios, np.geomspace(1, ratios.max(), BINS), color=plotting.FAINT)
+    ax.hist(ratios, np.geomspace(1, ratios.max(), BINS).tolist(), color=plotting.FAINT)
     for end, (way, (colour, line)) in zip(ends, WAYS.items(), strict=True):
         ax.axvline(end / costs.min(), linestyle=line, color=plotting.PALETTE[colour], label=way)
     ax.set(xscale="log", yticks=[], xlabel="cost / least cost")
@@ -46,58 +56,41 @@ def _histogram(ax, costs, ends):
     ax.spines[["top", "right", "left"]].set_visible(False)
 
 
-def distances():
-    """How much swapping and annealing cost more than the best mesh, for each criterion."""
+def distances() -> Figure:
+    """How much more than the best mesh those of swapping and annealing cost, for each criterion."""
     figure, (ax,) = plotting.panels(size=TALL)
     figure.set_size_inches(plotting.WIDTH, TALL)
     for row, case in enumerate(beyond.CASES):
         ax.axhline(row, color=plotting.FAINT, linewidth=GUIDE, zorder=0, xmax=FOUND - 3 * COLUMN)
-        for way, side in SIDES.items():
-            _dots(ax, beyond.distances(*case), row + side * APART, way, way if row == 0 else None)
-    for way, side in SIDES.items():
-        ax.annotate(
-            "found",
-            (FOUND + side * COLUMN, 1),
-            (0, 3),
-            xycoords="axes fraction",
-            ha="right",
-            textcoords="offset points",
-            fontsize="small",
-            color=_colour(way),
-        )
+        for way in SIDES:
+            _dots(ax, beyond.distances(*case), row, way, way if row == 0 else None)
+    for way in SIDES:
+        _beside(ax, way, "found", 1, xycoords="axes fraction", xytext=(0, 3), textcoords="offset points")
     _percent_axes(ax, [beyond.title(*case) for case in beyond.CASES])
     figure.legend(loc="outside lower center", ncols=len(SIDES), markerscale=2)
     return figure
 
 
-def _dots(ax, found, y, way, label):
-    """A row of dots, spread so that equal ones are told apart, and the share at 0."""
+def _dots(ax: Axes, found: beyond.Distances, row: int, way: str, label: str | None) -> None:
+    """Dots for a criterion, spread so that equal ones are told apart, and the share at 0."""
     values = np.sort(100 * found.excess(way))
-    ax.plot(
-        values,
-        y + SPREAD * np.linspace(-1, 1, len(values)),
-        "o",
-        color=_colour(way),
-        markersize=3,
-        alpha=0.6,
-        label=label,
-    )
-    ax.annotate(
-        f"{100 * found.share(way):.0f} %",
-        (FOUND + SIDES[way] * COLUMN, round(y)),
-        ha="right",
-        va="center",
-        xycoords=("axes fraction", "data"),
-        fontsize="small",
-        color=_colour(way),
-    )
+    heights = row + SIDES[way] * APART + SPREAD * np.linspace(-1, 1, len(values))
+    ax.plot(values, heights, "o", color=_colour(way), markersize=3, alpha=0.6, label=label)
+    share = f"{100 * found.share(way):.0f} %"
+    _beside(ax, way, share, row, xycoords=("axes fraction", "data"), va="center")
 
 
-def _colour(way):
+def _beside(ax: Axes, way: str, text: str, y: float, **options: Any) -> None:
+    """A text in the column of shares of swapping or of annealing."""
+    x, colour = FOUND + SIDES[way] * COLUMN, _colour(way)
+    ax.annotate(text, (x, y), ha="right", fontsize="small", color=colour, **options)
+
+
+def _colour(way: str) -> str:
     return plotting.PALETTE[WAYS[way][0]]
 
 
-def _percent_axes(ax, names):
+def _percent_axes(ax: Axes, names: Sequence[str]) -> None:
     """Per cent along x, linear below one and logarithmic above, and a name for each row."""
     ax.set_xscale("symlog", linthresh=LINEAR)
     ax.set_xticks(TICKS, [f"{tick:g}" for tick in TICKS])
@@ -112,54 +105,46 @@ def _percent_axes(ax, names):
     ax.spines[["top", "right", "left"]].set_visible(False)
 
 
-def annealed():
-    """Cost while it gets colder, and the meshes that swapping and annealing end in."""
-    pyplot, found = plotting.look.pyplot(), beyond.large(*SHOWN)
-    with plotting.style():
-        figure, axes = pyplot.subplots(
-            1,
-            3,
-            layout="constrained",
-            width_ratios=(1.1, 1, 1),
-            figsize=(plotting.WIDTH, plotting.WIDTH / 2.75),
-        )
-    _cooling(axes[0], found)
+def annealed() -> Figure:
+    """Cost against the falling temperature, and the meshes that swapping and annealing end in."""
+    figure, (left, *right) = _one_wide_panel_and_two()
+    _cooling(left)
+    found = beyond.large(*SHOWN)
     run = min((beyond.annealing(*SHOWN, seed) for seed in beyond.SEEDS), key=lambda run: run.cost_after)
     ends = (
         ("swapped", beyond.in_natural_order(*SHOWN), found.swapped, found.error_swapped),
         ("annealed", run.mesh, run.cost_after, found.error_annealed),
     )
-    for ax, (way, mesh, cost, error) in zip(axes[1:], ends, strict=True):
-        plotting.plot_contours(ax, Interpolant(mesh, problems.functions[SHOWN[1]]), CONTOURS)
+    for ax, (way, mesh, cost, error) in zip(right, ends, strict=True):
+        plotting.plot_contours(ax, Interpolant(mesh, problems.functions[SHOWN[1]]), levels=CONTOURS)
         plotting.plot_mesh(ax, mesh, width=FINE_WIDTH)
         ax.set_title(f"{way}\ncost {cost:.2f}, $L_2$ {error:.4f}", fontsize="small")
     return figure
 
 
-def _cooling(ax, found):
-    """The cost at the end of each level for every seed, and where the others stand."""
+def _one_wide_panel_and_two() -> tuple[Figure, Sequence[Axes]]:
+    size, ratios = (plotting.WIDTH, plotting.WIDTH / 2.75), (1.1, 1, 1)
+    with plotting.style():
+        return plotting.look.pyplot().subplots(1, 3, layout="constrained", width_ratios=ratios, figsize=size)
+
+
+def _cooling(ax: Axes) -> None:
+    """The cost at the end of each temperature for every seed, and lines of costs to compare it with."""
     for seed in beyond.SEEDS:
         run = beyond.annealing(*SHOWN, seed)
         ax.plot(run.temperatures, run.history, color=plotting.PALETTE["sky"], linewidth=0.8)
-    orders = f"best of {beyond.ORDERS} orders"
-    marks = (
-        ("swapped", found.swapped, "vermillion"),
-        (orders, found.orders, "orange"),
-        ("proved optimum", found.best, "black"),
-    )
-    for text, cost, colour in marks:
-        ax.axhline(cost, color=plotting.PALETTE[colour], linestyle="--", linewidth=1)
-        ax.annotate(
-            text,
-            (1, cost),
-            (-2, 2),
-            xycoords=("axes fraction", "data"),
-            textcoords="offset points",
-            ha="right",
-            va="bottom",
-            fontsize="small",
-            color=plotting.PALETTE[colour],
-        )
+    found = beyond.large(*SHOWN)
+    _level(ax, "swapped", found.swapped, plotting.PALETTE["vermillion"])
+    _level(ax, f"best of {beyond.ORDERS} orders", found.orders, plotting.PALETTE["orange"])
+    _level(ax, "proved optimum", found.best, plotting.PALETTE["black"])
     ax.set(xscale="log", xlabel="temperature", ylabel=f"cost, {beyond.title(*SHOWN[2:])}", ylim=(0, None))
     ax.invert_xaxis()
     ax.spines[["top", "right"]].set_visible(False)
+
+
+def _level(ax: Axes, text: str, cost: float, colour: str) -> None:
+    """A dashed line at a cost, with its name above the right end."""
+    ax.axhline(cost, color=colour, linestyle="--", linewidth=1)
+    place: dict[str, Any] = dict(xycoords=("axes fraction", "data"), textcoords="offset points")
+    look: dict[str, Any] = dict(ha="right", va="bottom", fontsize="small", color=colour)
+    ax.annotate(text, (1, cost), (-2, 2), **place, **look)

@@ -1,26 +1,35 @@
 """Figure of section 7.2: polygons in place of a curved domain."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ... import curves, plotting
 from ..studies import section_7_2_boundaries as boundaries
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
 __all__ = ["boundaries_compared"]
 
-FEW, SOME = 10, 40  # nodes along the ellipse, and of the mesh of the trefoil
-SHARES, HEIGHT = (0.55, 1.0), 5.2  # of the height, and inches
-FINE = 400  # points of a curve that is drawn
+FEW, SOME = 10, 40  # nodes along the ellipse and along the trefoil
+SHARES = (0.55, 1.0)  # relative heights of the two rows
+HEIGHT = 5.2  # inches
+FINE = 400  # points at which a curve is drawn
 THIN = 0.8  # points
-LOOKS = {
+LOOKS = {  # colour and marker of a density
     "curvature": (plotting.SECOND, "o"),
     "length": (plotting.ACCENT, "s"),
     "parameter": (plotting.PALETTE["black"], "^"),
 }
 LINES = {"ellipse": "-", "trefoil": "--"}
-SAME = "ellipse", "parameter"  # the best polygons of an ellipse are those of its parameter
+LEFT_OUT = "ellipse", "parameter"  # the best polygons of an ellipse are those of its parameter
 
 
-def boundaries_compared():
+def boundaries_compared() -> Figure:
     """An ellipse by two rules, the area lost against n, and a mesh of a domain that is not convex."""
     with plotting.style():
         figure = plotting.look.pyplot().figure(figsize=(plotting.WIDTH, HEIGHT), layout="constrained")
@@ -36,8 +45,8 @@ def boundaries_compared():
     return figure
 
 
-def _polygon(ax, name, density):
-    """The curve, the polygon, and what lies between."""
+def _polygon(ax: Axes, name: str, density: str) -> None:
+    """The curve, the polygon, and the area between them."""
     t = boundaries.placed(name, FEW, density)
     x, y = boundaries.CURVES[name](np.linspace(0, 1, FINE))
     p, q = boundaries.CURVES[name](np.append(t, 1))
@@ -51,7 +60,8 @@ def _polygon(ax, name, density):
     ax.axis("off")
 
 
-def _mesh(ax, name):
+def _mesh(ax: Axes, name: str) -> None:
+    """A mesh of the domain inside a curve."""
     t = boundaries.placed(name, SOME)
     mesh = curves.domain_mesh(boundaries.CURVES[name], t)
     plotting.plot_mesh(ax, mesh, nodes=np.arange(SOME), width=THIN)
@@ -60,29 +70,22 @@ def _mesh(ax, name):
     ax.set_title(f"{SOME} of {mesh.n_nodes} nodes on the boundary")
 
 
-def _areas(ax):
-    """n^2 times the area against n, and its limits."""
-    for name, dashes in LINES.items():
-        for density, (colour, marker) in LOOKS.items():
-            if (name, density) != SAME:
-                ax.axhline(boundaries.limits(name)[density], color=plotting.FAINT, linewidth=THIN, zorder=0)
-                ax.semilogx(
-                    boundaries.NODES,
-                    boundaries.lost(name, density),
-                    color=colour,
-                    marker=marker,
-                    markersize=4,
-                    linestyle=dashes,
-                    linewidth=1.5 * THIN,
-                    label=f"{name}, {boundaries.DENSITIES[density]}",
-                )
-    ax.set(
-        xlabel="nodes $n$ on the boundary",
-        ylabel="$n^2$ times the area lost",
-        ylim=(0, 170),
-        xticks=boundaries.NODES,
-        xticklabels=boundaries.NODES,
-    )
+def _areas(ax: Axes) -> None:
+    """n^2 times the area lost against n, and its limits."""
+    for name in LINES:
+        for density in LOOKS:
+            if (name, density) != LEFT_OUT:
+                _area(ax, name, density)
+    ax.set(xlabel="nodes $n$ on the boundary", ylabel="$n^2$ times the area lost", ylim=(0, 170))
+    ax.set_xticks(boundaries.NODES, boundaries.NODES)
     ax.minorticks_off()
     ax.spines[["top", "right"]].set_visible(False)
     ax.legend(fontsize="small", frameon=False, loc="lower right", ncols=2, handlelength=2.4)
+
+
+def _area(ax: Axes, name: str, density: str) -> None:
+    colour, marker = LOOKS[density]
+    ax.axhline(boundaries.limits(name)[density], color=plotting.FAINT, linewidth=THIN, zorder=0)
+    look = dict(color=colour, marker=marker, markersize=4, linestyle=LINES[name], linewidth=1.5 * THIN)
+    label = f"{name}, {boundaries.DENSITIES[density]}"
+    ax.semilogx(boundaries.NODES, boundaries.lost(name, density), label=label, **look)

@@ -1,25 +1,33 @@
-"""Figures of section 7.5: the mesh on which Algorithm 7.5.1 cycles, and what it makes of the 33 nodes."""
+"""Figures of section 7.5: a cycle of Algorithm 7.5.1, and what it makes of the 33 nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ... import Interpolant, combined, delaunay, plotting, problems
+from ... import Interpolant, Mesh, combined, delaunay, plotting, problems
+from ...combination.combined import Combination
 from ..studies import section_7_5_combining as combining
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["combining_compared", "combining_cycle"]
 
-HEIGHT, DOT = 1.95, 4.0  # inches, points
+HEIGHT = 1.95  # inches
+DOT = 4.0  # points
 DASHES = (0, (4, 3))
-KINK = (0, 3)  # both coordinates, from one side of the rectangle to the other
+KINK = (0, 3)  # x and y at the ends of the kink, from one side of the rectangle to the other
 
 
-def combining_cycle():
-    """The meshes of the cycle: shaded the patch that acts next, in colour the edge that the last one made."""
+def combining_cycle() -> Figure:
+    """The meshes of the cycle; shaded is the patch that acts next, coloured the edge that was made last."""
     meshes, found = _meshes()
     costs, acting = [found.indicator, *found.history["indicator"]], found.history["node"]
     with plotting.style():
-        figure, axes = plotting.look.pyplot().subplots(
-            1, 3, figsize=(plotting.WIDTH, HEIGHT), layout="constrained"
-        )
+        size = plotting.WIDTH, HEIGHT
+        figure, axes = plotting.look.pyplot().subplots(1, 3, figsize=size, layout="constrained")
         for k, (ax, mesh) in enumerate(zip(axes, meshes, strict=True)):
             plotting.plot_mesh(ax, mesh, numbers=True)
             ax.plot(KINK, KINK, color=plotting.SECOND, linestyle=DASHES, zorder=2.5)
@@ -29,23 +37,21 @@ def combining_cycle():
     return figure
 
 
-def _meshes():
-    """The meshes along the cycle, and the run."""
+def _meshes() -> tuple[list[Mesh], Combination]:
+    """The meshes of the cycle, and the run."""
     found, start = combining.cycle(), delaunay(combining.CYCLE_NODES)
-    share = (
-        found.history["gain"].mean() / found.indicator
-    )  # which the first step gains and the second does not
+    share = found.history["gain"].mean() / found.indicator  # the first step gains it, the second does not
     first = combined(start, combining.ridge, "jnd", rim=False, max_sweeps=1, min_relative_gain=share)
     return [start, first.mesh, found.mesh], found
 
 
-def combining_compared(function="DD1"):
-    """Two rows of mesh, surface and lines of constant value: the start, and combined with the limit."""
+def combining_compared(function: str = "DD1") -> Figure:
+    """Two rows of mesh, surface and lines of constant value: the start, and combined with a limit."""
     u = problems.functions[function]
     before, after = (
         Interpolant(mesh, u) for mesh in (problems.mesh(combining.START), combining.adapted(function).mesh)
     )
-    figure = plotting.representation(after, before, ("start", "combined"))
+    figure = plotting.representation(after, before=before, labels=("start", "combined"))
     moved = np.flatnonzero((before.mesh.nodes != after.mesh.nodes).any(axis=1))
-    plotting.mark_nodes(figure.axes[-3], after.mesh, moved, plotting.ACCENT, DOT)
+    plotting.mark_nodes(figure.axes[-3], after.mesh, moved, colour=plotting.ACCENT, size=DOT)
     return figure

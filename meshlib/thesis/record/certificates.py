@@ -1,4 +1,4 @@
-"""Certificates: the data with which Algorithm 3.1.4 gives all numbers of a table column.
+"""Certificates: data with which Algorithm 3.1.4 of the thesis gives all numbers of a table column.
 
 A certificate is a file of plain data that any program can check: start mesh, function,
 criterion and norm, the edges in the order of inspection, the gain below which no swap is
@@ -7,28 +7,31 @@ made, a perturbation of nodal values, and the elements that come out.
 
 import dataclasses
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib.resources import files
+from typing import Any
 
 import numpy as np
 
 from ... import Mesh, criteria, problems, swapped
 from ...mesh.topology import canonical
+from ...swapping.swapped import Swapping
 
 FOLDER = files(__package__) / "certificates"
-LARGEST_PERTURBATION = 1e-8
-ULP_TRIALS = 8  # nodal values are moved by their last bit so many times
+LARGEST_PERTURBATION = 1e-8  # bound on what may be added to a nodal value
+ULP_TRIALS = 8  # runs in which every nodal value is moved by its last bit
 
 
 @dataclass(frozen=True)
 class Certificate:
-    """How one column of a table is reached.
+    """An edge order and a perturbation that give one column of a table.
 
     Attributes
     ----------
     found_by : str
-        The command that finds it again from nothing.
+        The command that finds the certificate again from nothing.
     start : str
         Name of the start mesh in `meshlib.problems`.
     function, criterion : str
@@ -39,10 +42,11 @@ class Certificate:
     perturbation : dict
         Node number -> what is added to u there.
     nodes : (N, 2) ndarray of float64
+        Nodes of the start mesh.
     elements : (T, 3) ndarray of int64
-        Of the start mesh.
+        Elements of the start mesh.
     edges : (E, 2) ndarray of int64
-        Of the start mesh, in the order of inspection.
+        Edges of the start mesh, in the order of inspection.
     result : (T, 3) ndarray of int64
         Elements after the procedure, smallest node first, in lexicographic order.
     """
@@ -53,31 +57,31 @@ class Certificate:
     criterion: str
     norm: int
     tolerance: float
-    perturbation: dict
+    perturbation: dict[int, float]
     nodes: np.ndarray
     elements: np.ndarray
     edges: np.ndarray
     result: np.ndarray
 
     @cached_property
-    def mesh(self):
+    def mesh(self) -> Mesh:
         """The start mesh."""
         return Mesh(self.nodes, self.elements)
 
     @property
-    def order(self):
+    def order(self) -> np.ndarray:
         """Edge numbers of the start mesh in the order of inspection."""
         return self.mesh.edge_numbers(self.edges)
 
     @property
-    def values(self):
-        """Perturbed nodal values."""
+    def values(self) -> np.ndarray:
+        """(N,) float64: the perturbed nodal values."""
         values = problems.functions[self.function](*self.nodes.T)
         values[list(self.perturbation)] += list(self.perturbation.values())
         return values
 
-    def swapped(self, independent=False, values=None):
-        """The record of the procedure; ``independent``: by the slow reference procedure."""
+    def swapped(self, independent: bool = False, values: np.ndarray | None = None) -> Swapping:
+        """The record of the procedure; ``independent``: of the one in plain Python, not the compiled one."""
         criterion = criteria.get(self.criterion)
         if independent:
             criterion = dataclasses.replace(criterion, code=-1)
@@ -86,14 +90,14 @@ class Certificate:
             self.mesh, values, criterion, norm=self.norm, order=self.order, min_gain=self.tolerance
         )
 
-    def faults(self):
-        """What is wrong with it, each fault a sentence; an empty list if nothing is.
+    def faults(self) -> list[str]:
+        """What is wrong with the certificate, a sentence for each fault; an empty list if it holds.
 
-        Checked are the size of the perturbation, the order, the start mesh, and the
-        result: by both procedures, and with every nodal value moved by its last bit.
+        Checked are the size of the perturbation, the start mesh, the order, and the result:
+        by both procedures, and with every nodal value moved by its last bit.
         """
         found = []
-        if not all(abs(v) < LARGEST_PERTURBATION for v in self.perturbation.values()):  # nor NaN
+        if not all(abs(v) < LARGEST_PERTURBATION for v in self.perturbation.values()):  # also if one is NaN
             found.append(f"a perturbation reaches {LARGEST_PERTURBATION:g}")
         if not self.mesh.equals(problems.mesh(self.start)):
             return [*found, f"the start mesh is not that of {self.start!r}"]
@@ -105,28 +109,28 @@ class Certificate:
             if not self._ends_well(values, independent)
         ]
 
-    def _trials(self):
+    def _trials(self) -> Iterator[tuple[str, np.ndarray, bool]]:
         yield "the procedure", self.values, False
         yield "the independent procedure", self.values, True
         for seed in range(ULP_TRIALS):
             up = np.random.default_rng(seed).choice([-np.inf, np.inf], len(self.nodes))
             yield f"the procedure with last bits moved (seed {seed})", np.nextafter(self.values, up), False
 
-    def _ends_well(self, values, independent):
+    def _ends_well(self, values: np.ndarray, independent: bool) -> bool:
         return np.array_equal(canonical(self.swapped(independent, values).mesh.elements), self.result)
 
-    def to_json(self):
-        """The data as JSON text, an entry on each line."""
+    def to_json(self) -> str:
+        """The data as JSON text, one entry a line."""
         data = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         lines = (f" {json.dumps(name)}: {json.dumps(_plain(value))}" for name, value in data.items())
         return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def _plain(value):
+def _plain(value: Any) -> Any:
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
-def from_json(text):
+def from_json(text: str) -> Certificate:
     """The certificate in a JSON text."""
     data = json.loads(text)
     for name in ("nodes", "elements", "edges", "result"):
@@ -136,12 +140,11 @@ def from_json(text):
 
 
 @cache
-def load(name):
-    """A certificate of this report by its name, or None if there is no such file."""
-    file = FOLDER / f"{name}.json"
-    return from_json(file.read_text()) if file.is_file() else None
+def load(name: str) -> Certificate:
+    """A certificate of this report by its name, which is the key of its experiment."""
+    return from_json((FOLDER / f"{name}.json").read_text())
 
 
-def names():
+def names() -> list[str]:
     """Names of all stored certificates."""
     return sorted(f.name.removesuffix(".json") for f in FOLDER.iterdir() if f.name.endswith(".json"))

@@ -1,9 +1,10 @@
-"""The 91 numbers that the thesis prints, as data, and when one of ours matches.
+"""The 91 numbers that the thesis prints, as data, and when a computed value matches one.
 
-Tables 5.1 to 5.6, 6.1 and 6.2 and two numbers in the text.  Every number is kept as
-the text that was printed, because its digits decide what matches.
+They stand in Tables 5.1 to 5.6, 6.1 and 6.2, and two in the text.  Each is kept as the
+text that was printed, because its digits decide what matches.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import ROUND_FLOOR, ROUND_HALF_UP, Decimal
 from functools import cache
@@ -27,7 +28,7 @@ class Column:
 
     title: str
     experiment: str
-    entries: dict
+    entries: dict[str, str]
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class Printed:
     table, row, column : str
         As the thesis heads them.
     experiment, measure, statistic : str
-        What computes it; the statistic is empty for L2 errors.
+        What it measures of which experiment; the statistic of an L2 error is empty.
     text : str
         The digits as printed.
     """
@@ -56,7 +57,7 @@ class Printed:
     text: str
 
 
-def _geometry(angle, skewness, ratio, l2=None):
+def _geometry(angle: str, skewness: str, ratio: str, l2: str | None = None) -> dict[str, str]:
     entries = dict(zip(GEOMETRY, (angle, skewness, ratio), strict=True))
     return entries | ({"l2_error": l2} if l2 else {})
 
@@ -136,19 +137,19 @@ TABLES = {
 
 IN_TEXT = {"5.3.2": "Section 5.3.2", "6.2-text": "Section 6.2"}
 
-MISPRINTS = {
-    f"5.1/{column}/aspect_ratio/max": "the largest aspect ratio is that of a right isosceles element, sqrt(3)/2 = 0.8660254; "
+ASPECT_RATIO = (
+    "the largest aspect ratio is that of a right isosceles element, sqrt(3)/2 = 0.8660254; "
     "Tables 5.3, 5.4 and 6.1 print the same value as 0.8660"
-    for column in ("33 pt", "Refined 33 pt")
-}
+)
+MISPRINTS = {f"5.1/{column}/aspect_ratio/max": ASPECT_RATIO for column in ("33 pt", "Refined 33 pt")}
 
 
-def heading(table):
-    """How the thesis calls a table, or the section that prints a single number."""
+def heading(table: str) -> str:
+    """What the thesis calls a table, or the section that prints a single number."""
     return IN_TEXT.get(table, f"Table {table}")
 
 
-def numbers():
+def numbers() -> list[Printed]:
     """All printed numbers, in the order of the thesis.
 
     Examples
@@ -167,8 +168,8 @@ def numbers():
 
 
 @cache
-def texts(experiment):
-    """What the thesis prints of an experiment: (measure, statistic) -> text.
+def texts(experiment: str) -> dict[tuple[str, str], str]:
+    """The digits that the thesis prints for an experiment: (measure, statistic) -> text.
 
     Examples
     --------
@@ -178,46 +179,39 @@ def texts(experiment):
     return {(n.measure, n.statistic): n.text for n in numbers() if n.experiment == experiment}
 
 
-def _entries(table, column):
+def _entries(table: str, column: Column) -> Iterator[Printed]:
     for measure, entry in column.entries.items():
         texts = entry.split(", ")
         for statistic, text in zip(STATISTICS if len(texts) > 1 else ("",), texts, strict=True):
             key = "/".join(filter(None, (table, column.title, measure, statistic)))
-            yield Printed(
-                key,
-                heading(table),
-                ROWS[measure],
-                ", ".join(filter(None, (column.title, statistic))),
-                column.experiment,
-                measure,
-                statistic,
-                text,
-            )
+            title = ", ".join(filter(None, (column.title, statistic)))
+            of = column.experiment, measure, statistic
+            yield Printed(key, heading(table), ROWS[measure], title, *of, text)
 
 
-def matches(value, text):
-    """Whether a value is printed as this text by rounding or by truncating.
+def matches(value: float, text: str) -> bool:
+    """Whether a value, rounded or truncated to the digits of the text, gives the text.
 
-    The thesis does both: 168.690 stands as 168.7, and 1.26467 as 1.264.
+    The thesis does both: it prints 168.690 as 168.7, and 1.26467 as 1.264.
 
     Examples
     --------
     >>> matches(168.690, "168.7"), matches(1.26467, "1.264"), matches(0.8660254, "0.8661")
     (True, True, False)
     """
-    exact, unit = Decimal(repr(float(value))), Decimal(text).as_tuple().exponent
+    exact, unit = Decimal(repr(float(value))), int(Decimal(text).as_tuple().exponent)
     return any(
         exact.quantize(Decimal(1).scaleb(unit), how) == Decimal(text) for how in (ROUND_HALF_UP, ROUND_FLOOR)
     )
 
 
-def digits(value, text, extra=1):
-    """A value with so many more decimals than the printed text.
+def digits(value: float, text: str, extra: int = 1) -> str:
+    """A value with ``extra`` decimals more than the printed text.
 
     Examples
     --------
     >>> digits(0.86602540378, "0.8661")
     '0.86603'
     """
-    places = max(0, -Decimal(text).as_tuple().exponent)
+    places = max(0, -int(Decimal(text).as_tuple().exponent))
     return f"{value:.{places + extra}f}"

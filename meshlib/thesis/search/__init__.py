@@ -1,1 +1,1 @@
-"""The search for certificates: an edge order and a perturbation that give printed numbers."""
+"""The search for certificates: edge orders and perturbations that give the printed numbers."""

@@ -1,25 +1,29 @@
 """The experiments of chapters 5 and 6: what each computes, and by which recipe.
 
 An experiment is a start mesh, a function and an operation.  Most are deterministic;
-those whose printed numbers depend on the edge order and on rounding noise read both
-from a certificate, a file of explicit data.
+those whose printed numbers depend on the edge order and on rounding noise read an
+order and a perturbation from a certificate, a file of explicit data.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
 
 from ... import Interpolant, Mesh, problems, refined, smoothed, swapped
 from ...checks import choice
-from ...swapping.swapped import prepared
+from ...refinement.refined import Refinement
+from ...swapping.procedure import Procedure
+from ...swapping.swapped import Swapping, prepared
 from ..record import certificates
-from .measures import measured
+from .measures import Function, Measures, measured
 
-SHARE = 0.2
-SMALLEST_ANGLE = 8.0
+SHARE = 0.2  # fraction of the elements that is marked
+SMALLEST_ANGLE = 8.0  # degrees, the limit of section 6.1
 NATURAL = "edges in natural order"
 
-DETERMINISTIC, CERTIFIED, SEARCHED = "deterministic", "certificate", "none"
+DETERMINISTIC, CERTIFIED, MISSING = "deterministic", "certificate", "none"
 
 
 @dataclass(frozen=True)
@@ -34,18 +38,18 @@ class Experiment:
     operate : callable
         ``operate(mesh, u, order)`` returns a record with a ``.mesh``.
     recipe : str
-        In one line, for people.
+        One line that says how the mesh is made.
     function : str
         Name of u in `meshlib.problems`, empty where none is needed.
     certified : bool
-        Whether order and perturbation come from the certificate of the same key.
+        Whether order and perturbation come from the certificate named by the key.
     shuffled : bool
         Whether the thesis shuffled the edges, so that no natural order is meant.
     """
 
     key: str
     nodes: str
-    operate: Callable
+    operate: Any
     recipe: str
     function: str = ""
     certified: bool = False
@@ -60,86 +64,90 @@ class Result:
     ----------
     experiment : Experiment
     start, mesh : Mesh
-        Before and after.
+        The mesh before and after.
     record : object
         What the operation returned.
     kind : {"deterministic", "certificate", "none"}
-        ``"none"`` if the certificate is not known: the natural order stands in.
+        ``"none"`` if a certificate is needed and there is none; the result is then that of
+        the natural order.
     """
 
     experiment: Experiment
     start: Mesh
     mesh: Mesh
-    record: object
+    record: Any
     kind: str
 
     @property
-    def function(self):
+    def function(self) -> Function | None:
         """The test function u, or None."""
         return problems.functions.get(self.experiment.function)
 
     @cached_property
-    def measures(self):
-        """Every number the tables print: (measure, statistic) -> value."""
+    def measures(self) -> Measures:
+        """Every number that the tables print: (measure, statistic) -> value."""
         return measured(self.mesh, self.function)
 
     @cached_property
-    def interpolant(self):
+    def interpolant(self) -> Interpolant:
         """Interpolant of u on the mesh."""
-        return Interpolant(self.mesh, self.function)
+        return Interpolant(self.mesh, problems.functions[self.experiment.function])
 
     @cached_property
-    def start_interpolant(self):
+    def start_interpolant(self) -> Interpolant:
         """Interpolant of u on the start mesh."""
-        return Interpolant(self.start, self.function)
+        return Interpolant(self.start, problems.functions[self.experiment.function])
 
 
 @dataclass(frozen=True)
 class Unchanged:
-    """The record of doing nothing."""
+    """The record of an experiment that adapts nothing."""
 
     mesh: Mesh
 
 
-def _start(nodes, function=""):
+def _start(nodes: str, function: str = "") -> Experiment:
     key = f"{function}-{nodes}" if function else f"start-{nodes}"
     return Experiment(key, nodes, lambda mesh, u, order: Unchanged(mesh), "the start mesh", function)
 
 
 @dataclass(frozen=True)
 class Swap:
-    """The operation of edge swapping, with its arguments open to view."""
+    """The operation of edge swapping, with its criterion, norm and limit on angles as attributes."""
 
     criterion: str
     norm: int
-    min_angle: float = None
+    min_angle: float | None = None
 
-    def __call__(self, mesh, u, order):
+    def __call__(self, mesh: Mesh, u: Function, order: np.ndarray) -> Swapping:
+        """Swap edges in the given order."""
         return swapped(mesh, u, self.criterion, norm=self.norm, order=order, min_angle=self.min_angle)
 
-    def prepared(self, mesh, values, tolerance=None):
-        """The procedure on these values, for any edge order."""
+    def prepared(self, mesh: Mesh, values: np.ndarray, tolerance: float | None = None) -> Procedure:
+        """The procedure on these nodal values, which can be run with any edge order."""
         return prepared(mesh, values, self.criterion, self.norm, self.min_angle, None, tolerance)
 
     @property
-    def title(self):
-        """For people, for example ``"JND-L2"``."""
+    def title(self) -> str:
+        """Criterion and norm as they are written, for example ``"JND-L2"``."""
         return f"{self.criterion.upper()}-L{self.norm}"
 
 
-def _swap(key, function, nodes, swap, recipe, **flags):
+def _swap(key: str, function: str, nodes: str, swap: Swap, recipe: str, **flags: bool) -> Experiment:
     return Experiment(key, nodes, swap, f"{swap.title}, {recipe}", function, **flags)
 
 
-def _refine(key, nodes, mark, recipe, ties="first"):
-    def operate(mesh, u, order):
-        order = order if mark == "edge" else None
-        return refined(mesh, u, "abn", fraction=SHARE, mark=mark, split="centroid", ties=ties, order=order)
+def _refine(key: str, nodes: str, mark: str, recipe: str, ties: str = "first") -> Experiment:
+    def operate(mesh: Mesh, u: Function, order: np.ndarray) -> Refinement:
+        by_order = order if mark == "edge" else None
+        return refined(mesh, u, "abn", fraction=SHARE, mark=mark, split="centroid", ties=ties, order=by_order)
 
     return Experiment(key, nodes, operate, recipe, "SR1")
 
 
-def _certified(key, function, nodes, criterion, norm, shuffled=False):
+def _certified(
+    key: str, function: str, nodes: str, criterion: str, norm: int, shuffled: bool = False
+) -> Experiment:
     recipe = f"order, perturbation and tolerance of certificates/{key}.json"
     return _swap(key, function, nodes, Swap(criterion, norm), recipe, certified=True, shuffled=shuffled)
 
@@ -182,7 +190,7 @@ EXPERIMENTS = {
 
 
 @cache
-def run(key):
+def run(key: str) -> Result:
     """Carry out an experiment by its key.
 
     Parameters
@@ -206,23 +214,18 @@ def run(key):
     """
     experiment = EXPERIMENTS[choice(key, tuple(EXPERIMENTS), "experiment")]
     start = problems.mesh(experiment.nodes)
-    certificate = certificates.load(key) if experiment.certified else None
-    if not certificate:
-        return Result(
-            experiment,
-            start,
-            *_natural(experiment, start),
-            SEARCHED if experiment.certified else DETERMINISTIC,
-        )
-    record = certificate.swapped()
-    return Result(experiment, start, record.mesh, record, CERTIFIED)
+    if experiment.certified and key in certificates.names():
+        record = certificates.load(key).swapped()
+        return Result(experiment, start, record.mesh, record, CERTIFIED)
+    kind = MISSING if experiment.certified else DETERMINISTIC
+    return Result(experiment, start, *_natural(experiment, start), kind)
 
 
 @cache
-def natural(key):
-    """The same in a natural order of the edges and on the data as they are.
+def natural(key: str) -> Result | None:
+    """Carry out an experiment in the natural order of the edges, on unperturbed data.
 
-    None if that is what `run` does, or if the thesis shuffled the edges.
+    None if `run` does just that, or if the thesis shuffled the edges.
     """
     experiment = EXPERIMENTS[choice(key, tuple(EXPERIMENTS), "experiment")]
     if not experiment.certified or experiment.shuffled:
@@ -232,7 +235,7 @@ def natural(key):
     return Result(plain, start, *_natural(plain, start), DETERMINISTIC)
 
 
-def _natural(experiment, start):
+def _natural(experiment: Experiment, start: Mesh) -> tuple[Mesh, Any]:
     """Mesh and record of an experiment in the natural order of the edges."""
     u = problems.functions.get(experiment.function)
     record = experiment.operate(start, u, problems.order(experiment.nodes))

@@ -1,16 +1,22 @@
 """The four measures of the tables, for one mesh or for many."""
 
+from collections.abc import Callable, Iterable
+from typing import TypeAlias
+
 import numpy as np
 
-from ... import Interpolant, quality
+from ... import Interpolant, Mesh, quality
 
-GRID_POINTS = 101  # the tables match this grid, not the 200 x 200 of section 4.5.1
-L2 = "l2_error", ""
+Function: TypeAlias = Callable[..., np.ndarray]  # u(x, y), vectorised
+Measures: TypeAlias = dict[tuple[str, str], float]  # (measure, statistic) -> value
+
+GRID_POINTS = 101  # points a side; the tables match this grid, not the 200 x 200 of section 4.5.1
+L2 = "l2_error", ""  # measure and statistic
 PRINTED = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
 
 
-def measured(mesh, function=None):
-    """Every number the tables print of a mesh: (measure, statistic) -> value.
+def measured(mesh: Mesh, function: Function | None = None) -> Measures:
+    """Every number that the tables print for a mesh: (measure, statistic) -> value.
 
     Parameters
     ----------
@@ -38,8 +44,8 @@ def measured(mesh, function=None):
     return found
 
 
-def shapes(mesh):
-    """The measures of shape that the thesis prints, with mean and maximum, as a text.
+def shapes(mesh: Mesh) -> str:
+    """Mean and maximum of the three measures of shape that the thesis prints, as a text.
 
     Examples
     --------
@@ -57,25 +63,27 @@ def shapes(mesh):
     return "\n".join(lines)
 
 
-def l2_error(mesh, function):
+def l2_error(mesh: Mesh, function: Function) -> float:
     """The L2 error by the trapezium rule that the tables match."""
     return Interpolant(mesh, function).l2_error(function, points=GRID_POINTS, rule="trapezium")
 
 
-def measured_all(meshes, function):
-    """The same of many meshes: (measure, statistic) -> array of values."""
+def measured_all(meshes: Iterable[Mesh], function: Function | None) -> dict[tuple[str, str], np.ndarray]:
+    """Every number that the tables print, for many meshes: (measure, statistic) -> array of values."""
     remembered = Remembered(function) if function else None
     rows = [measured(mesh, remembered) for mesh in meshes]
     return {key: np.array([row[key] for row in rows]) for key in rows[0]}
 
 
 class Remembered:
-    """A function of x and y that computes its values at the same points only once."""
+    """A function of x and y that remembers its values at all arrays of points it was given."""
 
-    def __init__(self, function):
-        self.function, self._known = function, {}
+    def __init__(self, function: Function) -> None:
+        self.function = function
+        self._known: dict[tuple, np.ndarray] = {}
 
-    def __call__(self, x, y):
+    def __call__(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Values at points."""
         key = x.tobytes(), y.tobytes(), x.shape
         if key not in self._known:
             self._known[key] = self.function(x, y)

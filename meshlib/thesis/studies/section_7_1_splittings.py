@@ -1,7 +1,7 @@
 """The three splittings side by side (section 7.1): error and smallest angle, round after round.
 
-From the 33 nodes on, a fifth of the elements is marked and split in every round, until the
-L2 error is a hundredth of that at the start, or the mesh too large.
+A run starts from the 33 nodes.  In every round a fifth of the elements is marked and split,
+until the L2 error is a hundredth of that at the start or the mesh has ten thousand nodes.
 """
 
 from dataclasses import dataclass
@@ -9,24 +9,23 @@ from functools import cache
 
 import numpy as np
 
-from ... import Interpolant, criteria, problems, quality, refined
+from ... import Interpolant, Mesh, criteria, problems, quality, refined
 from ...mesh.quality import angles
 from ...refinement.marking import MARKS
-from ...refinement.splitting import SPLITS
-from ..tables.numbered import grid, numbered
+from .measures import Function
 
 FUNCTIONS = ("SR1", "SR2", "SR3", "DD1")
 START, SHARE, CRITERION = "33", 0.2, "abn"
-AIM = 0.01  # of the error at the start
-MOST_NODES = 10_000
-TRUE_ERROR = "true error"  # marked are the elements on which the L2 error itself is largest
+AIM = 0.01  # L2 error at which a run ends, relative to that at the start
+MOST_NODES = 10_000  # nodes at which a run ends
+TRUE_ERROR = "true error"  # marks the elements on which the L2 error itself is largest
 MARKINGS = (*MARKS, TRUE_ERROR)
-SHOWN_FROM = 500  # nodes of the meshes that are shown
+SHOWN_FROM = 500  # nodes that a mesh has at least if it is shown
 
 
 @dataclass(frozen=True)
 class Rounds:
-    """What becomes of a mesh in repeated refinement; the first entry is the start.
+    """The meshes of a run; the first is the start mesh.
 
     Attributes
     ----------
@@ -34,43 +33,43 @@ class Rounds:
     errors : (k,) ndarray of float64
         L2 errors, by quadrature on each element.
     changed : float
-        Elements split, or put together again, for each one that was marked.
+        Number of elements that were split, or put together again, for each one that was marked.
     """
 
-    meshes: list
+    meshes: list[Mesh]
     errors: np.ndarray
     changed: float
 
     @property
-    def nodes(self):
+    def nodes(self) -> np.ndarray:
         """(k,) int64: numbers of nodes."""
         return np.array([mesh.n_nodes for mesh in self.meshes])
 
     @property
-    def smallest_angles(self):
+    def smallest_angles(self) -> np.ndarray:
         """(k,) float64: the smallest angle of each mesh, in degrees."""
         return np.degrees([angles(mesh.corners).min() for mesh in self.meshes])
 
     @property
-    def mean_largest_angle(self):
-        """Of the elements of the last mesh, in degrees."""
+    def mean_largest_angle(self) -> float:
+        """Mean of the largest angles of the elements of the last mesh, in degrees."""
         return quality(self.meshes[-1]).mean["maximum_angle"]
 
     @property
-    def needed(self):
-        """Nodes at which the error is a hundredth, interpolated between two rounds; NaN if it never is."""
+    def needed(self) -> float:
+        """Number of nodes at which the error reaches its aim, interpolated between two rounds, or NaN."""
         level = -np.log(AIM * self.errors[0])
-        return np.exp(np.interp(level, -np.log(self.errors), np.log(self.nodes), right=np.nan))
+        return float(np.exp(np.interp(level, -np.log(self.errors), np.log(self.nodes), right=np.nan)))
 
     @property
-    def shown(self):
-        """The first mesh of a few hundred nodes."""
+    def shown(self) -> Mesh:
+        """The first mesh of at least `SHOWN_FROM` nodes."""
         return self.meshes[np.argmax(self.nodes >= SHOWN_FROM)]
 
 
 @cache
-def rounds(function, split, mark):
-    """Refine again and again.
+def rounds(function: str, split: str, mark: str) -> Rounds:
+    """Refine the mesh of the 33 nodes until a run ends.
 
     Parameters
     ----------
@@ -96,76 +95,19 @@ def rounds(function, split, mark):
     while errors[-1] > AIM * errors[0] and meshes[-1].n_nodes < MOST_NODES:
         done = refined(meshes[-1], u, criterion, fraction=SHARE, mark=mark, split=split)
         marked += len(done.marked)
-        changed += np.count_nonzero(np.bincount(done.parents, minlength=meshes[-1].n_elements) != 1)
+        parts = np.bincount(done.parents, minlength=meshes[-1].n_elements)
+        changed += int(np.count_nonzero(parts != 1))
         meshes.append(done.mesh)
         errors.append(_error(done.mesh, u))
     return Rounds(meshes, np.array(errors), changed / marked)
 
 
-def _error(mesh, u):
+def _error(mesh: Mesh, u: Function) -> float:
     return Interpolant(mesh, u).l2_error(u, rule="exact")
 
 
-# -- tables ----------------------------------------------------------------------------------
-
-
-def table_needed():
-    """Nodes at which the error is a hundredth, by splitting and marking."""
-    rows = [
-        (*names, *(_needed(rounds(function, split, mark)) for mark in MARKINGS))
-        for names, function, split in _lines()
-    ]
-    caption = (
-        "Nodes needed until the $L_2$ error is a hundredth of that on the 33 nodes; in brackets, "
-        f"where a mesh of {MOST_NODES} nodes or more came first, the error there in per cent of it."
-    )
-    return numbered("tab-7-1-nodes", caption, grid(("", "", *(f"by {m}" for m in MARKINGS)), rows))
-
-
-def _lines():
-    """The first cells of each row, function and splitting."""
-    for function in FUNCTIONS:
-        for split in SPLITS:
-            yield (function * (split == next(iter(SPLITS))), split), function, split
-
-
-def _needed(found):
-    share = 100 * found.errors[-1] / found.errors[0]
-    return f"({share:.3g})" if np.isnan(found.needed) else str(int(float(f"{found.needed:.3g}")))
-
-
-def table_reasons():
-    """What the closure adds and what shapes come out, marked by element."""
-    rows = []
-    for names, function, split in _lines():
-        found = rounds(function, split, "element")
-        rows.append(
-            (
-                *names,
-                f"{found.changed:.1f}",
-                f"{found.smallest_angles[-1]:.2f}°",
-                f"{found.mean_largest_angle:.0f}°",
-                f"{largest_kink(function, split):.0f}°",
-            )
-        )
-    head = (
-        "",
-        "",
-        "Elements changed for each one marked",
-        "Smallest angle",
-        "Mean largest angle",
-        "Largest kink",
-    )
-    return numbered(
-        "tab-7-1-reasons",
-        "Marked by element: what has to change with each marked element, the "
-        "angles of the last mesh, and the largest angle between normals there.",
-        grid(head, rows),
-    )
-
-
-def largest_kink(function, split, number=-1):
-    """The largest ABN of one of the meshes marked by element, in degrees.
+def largest_kink(function: str, split: str, number: int = -1) -> float:
+    """Largest angle between normals on a mesh of the run that marks by element, in degrees.
 
     Examples
     --------
@@ -173,4 +115,4 @@ def largest_kink(function, split, number=-1):
     [57, 174, 180]
     """
     mesh = rounds(function, split, "element").meshes[number]
-    return np.degrees(criteria.costs(mesh, problems.functions[function], CRITERION).max())
+    return float(np.degrees(criteria.costs(mesh, problems.functions[function], CRITERION).max()))

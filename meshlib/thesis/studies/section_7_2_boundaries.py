@@ -4,23 +4,23 @@ from functools import cache
 
 import numpy as np
 
-from ... import curves, problems, refined, smoothed, swapped, uniformity, valence
+from ... import Mesh, curves, problems, refined, smoothed, swapped
 from ...refinement.splitting import SPLITS
-from ..tables.numbered import grid, numbered
-from .section_7_5_combining import LIMIT, START, adapted
+from .measures import Function
+from .section_7_5_combining import START, adapted
 
 FUNCTION = "SR1"
-NODES = tuple(2**k for k in range(3, 9))  # along a boundary
+NODES = tuple(2**k for k in range(3, 9))  # numbers of nodes along a boundary
 DENSITIES = {"curvature": "$\\kappa^{1/3}$", "length": "arc length", "parameter": "parameter"}
 LOBES, DEPTH = 3, 0.35
-FINE = 1 << 14  # points along a curve, for integrals
+FINE = 1 << 14  # points along a curve at which integrands are evaluated
 
 
 # -- uniformity and valence --------------------------------------------------------------------
 
 
-def meshes():
-    """What chapter 3 and Algorithm 7.5.1 make of the 33 nodes, by name."""
+def meshes() -> dict[str, Mesh]:
+    """Meshes that the methods of chapter 3 and Algorithm 7.5.1 make of the 33 nodes, by name."""
     mesh, u = problems.mesh(START), problems.functions[FUNCTION]
     found = {
         "start": mesh,
@@ -31,40 +31,16 @@ def meshes():
     return found | {split: refined(mesh, u, fraction=1, split=split).mesh for split in SPLITS}
 
 
-def table_measures():
-    """Uniformity and valence of meshes for SR1."""
-    rows = []
-    for name, mesh in meshes().items():
-        un, val = uniformity(mesh), valence(mesh)
-        rows.append(
-            (
-                name,
-                mesh.n_nodes,
-                mesh.n_elements,
-                f"{un.mean():.2f}",
-                f"{un.max():.1f}",
-                f"{val.mean():.3f}",
-                val.max(),
-            )
-        )
-    head = ("Mesh", "Nodes", "Elements", "Uniformity, mean", "max", "Valence, mean", "max")
-    caption = (
-        f"Uniformity and valence for {FUNCTION}: the start mesh, the same nodes swapped, smoothed and "
-        f"combined (no angle below {LIMIT:g}°), and every element split once."
-    )
-    return numbered("tab-7-2-measures", caption, grid(head, rows))
-
-
 # -- the boundary of the domain ------------------------------------------------------------------
 
 
-def ellipse(t):
-    """Half axes 4 and 1."""
+def ellipse(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Points of the ellipse with half axes 4 and 1."""
     return 4 * np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)
 
 
-def trefoil(t):
-    """Three lobes: a domain that is not convex."""
+def trefoil(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Points of a curve with three lobes, whose inside is not convex."""
     r = 1 + DEPTH * np.cos(2 * np.pi * LOBES * t)
     return r * np.cos(2 * np.pi * t), r * np.sin(2 * np.pi * t)
 
@@ -72,13 +48,13 @@ def trefoil(t):
 CURVES = {"ellipse": ellipse, "trefoil": trefoil}
 
 
-def placed(name, n, density="curvature"):
+def placed(name: str, n: int, density: str | Function = "curvature") -> np.ndarray:
     """Parameters of n nodes along one of the curves."""
     return curves.boundary_parameters(CURVES[name], n, density)
 
 
 @cache
-def lost(name, density):
+def lost(name: str, density: str) -> np.ndarray:
     """n^2 times the area between the curve and its polygon, for each number of nodes.
 
     Examples
@@ -89,11 +65,12 @@ def lost(name, density):
     return np.array([n**2 * curves.deviation(CURVES[name], placed(name, n, density)) for n in NODES])
 
 
-def limits(name):
-    """What n^2 times the area tends to, by density w: W^2 K/12, with W = int w ds and K = int k/w^2 ds.
+def limits(name: str) -> dict[str, float]:
+    """Limits of n^2 times the area lost, for each density w of the nodes.
 
-    An arc of length h = W/(n w) leaves a sliver of area k h^3/12, and there are n w/W of
-    them for each unit of length.
+    With the curvature k an arc of length h = W/(n w), W = int w ds, leaves a sliver of area
+    k h^3/12.  There are n w/W of them for each unit of length, so that the limit is
+    W^2/12 int k/w^2 ds.
 
     Examples
     --------
@@ -109,49 +86,29 @@ def limits(name):
     return found
 
 
-def _around(name):
+def _around(name: str) -> np.ndarray:
     """Points all around a curve, at equal steps of its parameter."""
     return np.stack(CURVES[name](np.arange(FINE) / FINE))
 
 
-def _speed_and_curvature(points):
+def _speed_and_curvature(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     (dx, dy), (ddx, ddy) = _derivative(points), _derivative(_derivative(points))
     return np.hypot(dx, dy), np.abs(dx * ddy - dy * ddx) / np.hypot(dx, dy) ** 3
 
 
-def _derivative(values):
-    """Of smooth periodic functions at equal steps, by their Fourier series."""
+def _derivative(values: np.ndarray) -> np.ndarray:
+    """Derivative of smooth periodic functions, given at equal steps, by their Fourier series."""
     return np.fft.ifft(2j * np.pi * np.fft.fftfreq(FINE, 1 / FINE) * np.fft.fft(values)).real
-
-
-def table_lost():
-    """n^2 times the area lost, and its limit."""
-    rows = [
-        (
-            name if density == "curvature" else "",
-            title,
-            *(f"{v:.2f}" for v in lost(name, density)),
-            f"{limits(name)[density]:.2f}",
-        )
-        for name in CURVES
-        for density, title in DENSITIES.items()
-    ]
-    head = ("", "The same between neighbours", *(f"$n = {n}$" for n in NODES), "$n \\to \\infty$")
-    return numbered(
-        "tab-7-2-lost",
-        "$n^2$ times the area between the curve and the polygon with $n$ nodes, and the limit by theory.",
-        grid(head, rows),
-    )
 
 
 # -- data on the boundary ------------------------------------------------------------------------
 
 
 @cache
-def missed(name, function, by_data):
+def missed(name: str, function: str, by_data: bool) -> np.ndarray:
     """n^2 times the L2 error of linear interpolation along a curve, for each number of nodes.
 
-    Nodes are placed by the function or at equal arcs.
+    The nodes are placed by the function if ``by_data``, else at equal arcs.
 
     Examples
     --------
@@ -169,25 +126,9 @@ def missed(name, function, by_data):
     return np.array(found)
 
 
-def missed_limit(name, function):
-    """What it tends to if u decides: the integral of |u_ss|^(2/5), to the power 5/2, over root 120."""
+def missed_limit(name: str, function: str) -> float:
+    """Limit of `missed` for nodes placed by the function u: (int |u_ss|^(2/5) ds)^(5/2) / sqrt(120)."""
     points = _around(name)
     speed = np.hypot(*_derivative(points))
     u_ss = _derivative(_derivative(problems.functions[function](*points)) / speed) / speed
     return float((np.abs(u_ss) ** 0.4 * speed).mean() ** 2.5 / np.sqrt(120))
-
-
-def table_missed(name="trefoil", function="SR1"):
-    """n^2 times the error along the boundary, by the data and by arc length."""
-    limit = f"{missed_limit(name, function):.3f}"
-    cases = (r"$\lvert u_{ss}\rvert^{2/5}$", True, limit), ("arc length", False, "")
-    rows = [
-        (title, *(f"{v:.3f}" for v in missed(name, function, by_data)), last)
-        for title, by_data, last in cases
-    ]
-    head = ("The same between neighbours", *(f"$n = {n}$" for n in NODES), "$n \\to \\infty$")
-    caption = (
-        f"$n^2$ times the $L_2$ error of linear interpolation of {function} along the boundary of the "
-        f"{name} between $n$ nodes."
-    )
-    return numbered("tab-7-2-data", caption, grid(head, rows))

@@ -1,32 +1,34 @@
 """Alignment of the nodes with the data (section 7.3), and springs that repair it (section 7.4).
 
-A ramp is turned over the lattice of the 81 nodes.  To turn the ramp and not the nodes
-keeps the unit square, its mesh and its boundary nodes the same at every angle.
+A ramp is turned over the lattice of the 81 nodes.  Since the ramp is turned and not the
+nodes, the unit square, its mesh and its boundary nodes are the same at every angle.
 """
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
+from typing import Any
 
 import numpy as np
 
-from ... import DataSprings, Interpolant, checks, delaunay, problems, refined, smoothed, swapped
+from ... import DataSprings, Interpolant, Mesh, checks, delaunay, problems, refined, smoothed, swapped
 from ...movement.smoothed import MOST_SWEEPS
 from ...support.random_numbers import Draws
-from .measures import GRID_POINTS, L2, Remembered, measured
+from .measures import GRID_POINTS, L2, Function, Remembered, measured
 
-CRITERION, NORM = "jnd", 2  # of section 5.2
-STEEPNESS = 9 * np.sqrt(2)  # of SR1 and SR2, across the contours
-CENTRE = 0.5
+CRITERION, NORM = "jnd", 2  # as in section 5.2
+STEEPNESS = 9 * np.sqrt(2)  # slope of the argument of tanh in SR1 and SR2, across the contours
+CENTRE = 0.5  # both coordinates of the point about which the ramp is turned
 SPACING = 1 / 8
 SLOPES = ((0, 1), (1, 3), (1, 2), (1, 1), (2, 1), (3, 1), (1, 0))  # rise and run of contours
-ANGLES = tuple(range(91))
+ANGLES = tuple(range(91))  # degrees
 BESIDE = 0.5  # degrees from an angle of exact alignment
-FINER = 2  # bisections of the lattice, to see it far from its boundary
-JITTERS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5)
+FINER = 2  # bisections of the lattice that show how it does far from its boundary
+JITTERS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5)  # largest movements of a node along x and y, in spacings
 SEEDS = range(5)
-SMALLEST_ANGLE = 8.0  # of section 6.1
-SETTLED = 1e-4  # movement of nodes that is small enough here
-SKEWNESS = "skewness", "mean"
+SMALLEST_ANGLE = 8.0  # degrees, the limit of section 6.1
+SETTLED = 1e-4  # movement of the nodes at which a smoothing ends, relative to the domain
+SKEWNESS = "skewness", "mean"  # measure and statistic
 
 
 @dataclass(frozen=True)
@@ -36,8 +38,9 @@ class Ramp:
     Parameters
     ----------
     degrees : float
-        45 gives 9/2 times SR1, 135 gives SR2.
+        Angle of the contours; 45 gives 9/2 times SR1, 135 gives 1 - SR2.
     steepness : float
+        Slope of the argument of tanh across the contours.
 
     Examples
     --------
@@ -49,20 +52,21 @@ class Ramp:
     degrees: float
     steepness: float = STEEPNESS
 
-    def __call__(self, x, y):
+    def __call__(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Values at points."""
         return self.profile(self.across(x, y))
 
-    def across(self, x, y):
+    def across(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Distance from the contour through the centre, positive uphill."""
         angle = np.radians(self.degrees)
         return np.cos(angle) * (y - CENTRE) - np.sin(angle) * (x - CENTRE)
 
-    def profile(self, distance):
-        """The value at a distance from that contour."""
+    def profile(self, distance: np.ndarray) -> np.ndarray:
+        """The value at a distance from the contour through the centre."""
         return (1 + np.tanh(self.steepness * distance)) / 2
 
 
-def angle_of(rise, run):
+def angle_of(rise: int, run: int) -> float:
     """The angle of contours with this slope, in degrees."""
     return float(np.degrees(np.arctan2(rise, run)))
 
@@ -72,19 +76,20 @@ ALL_ANGLES = tuple(sorted({*ANGLES, *ALIGNED}))
 
 
 @cache
-def lattice(jitter=0.0, seed=0):
-    """The mesh of the 81 nodes, each moved by at most this share of the spacing along x and along y.
+def lattice(jitter: float = 0.0, seed: int = 0) -> Mesh:
+    """The mesh of the 81 nodes, each moved at random.
 
     Parameters
     ----------
     jitter : float
-        From 0 to 0.5; nodes of a side stay on it, and corners where they are.
+        Largest movement along x and along y as a fraction of the spacing, from 0 to 0.5.
+        Nodes of a side stay on it, and corners where they are.
     seed : int
 
     Returns
     -------
     Mesh
-        Delaunay.
+        A Delaunay mesh.
 
     Examples
     --------
@@ -99,33 +104,36 @@ def lattice(jitter=0.0, seed=0):
     return delaunay(start.nodes + steps * ((start.nodes > 0) & (start.nodes < 1)))
 
 
-# -- what is done to a mesh, and what comes of it ----------------------------------------------
+# -- strategies --------------------------------------------------------------------------------
 
 
-def as_it_is(mesh, u):
+def as_it_is(mesh: Mesh, u: Function) -> Mesh:
     """The mesh itself."""
     return mesh
 
 
-def only_swapped(mesh, u, min_angle=None):
-    """Edges swapped by JND-L2, on the lattice in the order of the thesis."""
+def only_swapped(mesh: Mesh, u: Function, min_angle: float | None = None) -> Mesh:
+    """Edges swapped by JND-L2; on the lattice without jitter in its natural order."""
     order = problems.order("81") if mesh is problems.mesh("81") else None
     return swapped(mesh, u, CRITERION, norm=NORM, order=order, min_angle=min_angle).mesh
 
 
-def only_moved(mesh, u, sliding=True, sweeps=MOST_SWEEPS, **constants):
-    """Springs that follow the data, brought to rest if so many sweeps do it."""
-    return smoothed(
-        mesh, DataSprings(u, **constants), max_sweeps=sweeps, min_movement=SETTLED, sliding=sliding
-    ).mesh
+def only_moved(
+    mesh: Mesh, u: Function, sliding: bool = True, sweeps: int = MOST_SWEEPS, **constants: float
+) -> Mesh:
+    """Nodes moved by springs that follow the data, to rest or for the given number of sweeps."""
+    springs = DataSprings(u, **constants)
+    return smoothed(mesh, springs, max_sweeps=sweeps, min_movement=SETTLED, sliding=sliding).mesh
 
 
-def moved_and_swapped(mesh, u, sliding=True, min_angle=None, **constants):
-    """Springs that follow the data, then edges swapped."""
+def moved_and_swapped(
+    mesh: Mesh, u: Function, sliding: bool = True, min_angle: float | None = None, **constants: Any
+) -> Mesh:
+    """Nodes moved by springs that follow the data, then edges swapped."""
     return only_swapped(only_moved(mesh, u, sliding, **constants), u, min_angle)
 
 
-STRATEGIES = {
+STRATEGIES: dict[str, Callable[[Mesh, Function], Mesh]] = {
     "start": as_it_is,
     "swapped": only_swapped,
     "swapped, 8°": partial(only_swapped, min_angle=SMALLEST_ANGLE),
@@ -136,29 +144,35 @@ STRATEGIES = {
 }
 
 
-def adapted(strategy, degrees, jitter=0.0, seed=0):
+def adapted(strategy: str, degrees: float, jitter: float = 0.0, seed: int = 0) -> Mesh:
     """The mesh that a strategy makes for the ramp at an angle."""
     return STRATEGIES[strategy](lattice(jitter, seed), Ramp(degrees))
 
 
 @cache
-def measures(strategy, degrees, jitter=0.0, seed=0):
-    """L2 error and mean skewness of that mesh."""
+def measures(strategy: str, degrees: float, jitter: float = 0.0, seed: int = 0) -> tuple[float, float]:
+    """L2 error and mean skewness of the mesh that a strategy makes for the ramp at an angle."""
     found = measured(adapted(strategy, degrees, jitter, seed), _remembered(degrees))
     return found[L2], found[SKEWNESS]
 
 
 @cache
-def _remembered(degrees):
+def _remembered(degrees: float) -> Remembered:
     return Remembered(Ramp(degrees))
 
 
-def curve(strategy, angles=ALL_ANGLES, jitter=0.0, seeds=(0,)):
-    """L2 errors and mean skewness at each angle, the mean over some seeds.
+def curve(
+    strategy: str,
+    angles: Sequence[float] = ALL_ANGLES,
+    jitter: float = 0.0,
+    seeds: Iterable[int] = (0,),
+) -> np.ndarray:
+    """L2 errors and mean skewness at each angle, averaged over the seeds.
 
     Returns
     -------
-    errors, skewness : ndarray of float64
+    (2, n) ndarray of float64
+        Errors, skewness.
 
     Examples
     --------
@@ -172,7 +186,7 @@ def curve(strategy, angles=ALL_ANGLES, jitter=0.0, seeds=(0,)):
 # -- lines of nodes ------------------------------------------------------------------------------
 
 
-def lines_apart(rise, run):
+def lines_apart(rise: int, run: int) -> float:
     """Distance between the lines of lattice nodes along this slope in lowest terms, in spacings.
 
     Examples
@@ -183,8 +197,8 @@ def lines_apart(rise, run):
     return float(1 / np.hypot(rise, run))
 
 
-def error_between_lines(rise, run):
-    """L2 error on the square of linear interpolation of the ramp between its contours through nodes."""
+def error_between_lines(rise: int, run: int) -> float:
+    """L2 error on the square if the ramp is interpolated linearly between its contours through nodes."""
     u, apart = Ramp(angle_of(rise, run)), SPACING * lines_apart(rise, run)
     x = np.linspace(0, 1, GRID_POINTS)
     distance = u.across(*np.meshgrid(x, x, indexing="ij"))
@@ -194,10 +208,11 @@ def error_between_lines(rise, run):
 
 
 @cache
-def error_far_from_boundary(rise, run):
-    """L2 error after swapping on a lattice refined `FINER` times under a ramp as much narrower.
+def error_far_from_boundary(rise: int, run: int) -> float:
+    """L2 error after swapping on a lattice refined `FINER` times, for a ramp that is narrower by as much.
 
-    In units of the error of the wide ramp: the narrow one covers a part of the square only.
+    The narrow ramp covers a smaller part of the square; the error is multiplied such that it
+    can be compared with that of the wide one.
     """
     scale, mesh = 2**FINER, problems.mesh("81")
     for _ in range(FINER):
@@ -209,22 +224,23 @@ def error_far_from_boundary(rise, run):
 
 # -- other constants, other orders of steps ---------------------------------------------------------
 
-CONSTANTS = (
+DEFAULT = (0, 100, 0.4)  # first, second, power, as in `DataSprings`
+CONSTANTS = (  # first, second, power
     (0, 1, 0.4),
     (0, 10, 0.4),
-    (0, 100, 0.4),
+    DEFAULT,
     (0, 1000, 0.4),
     (100, 0, 0.4),
     (0, 10, 1.0),
     (10, 0, 1.0),
-)  # first, second, power
-TRIAL_ANGLES = tuple(range(0, 91, 5))
-ROUNDS = (1, 2, 5)
+)
+TRIAL_ANGLES = tuple(range(0, 91, 5))  # degrees
+ROUNDS = (1, 2, 5)  # times that springs and swaps take turns
 
 
 @cache
-def trial(first, second, power, rounds=1):
-    """L2 errors over `TRIAL_ANGLES` with these springs, after the last springs and after the last swaps.
+def trial(first: float, second: float, power: float, rounds: int = 1) -> np.ndarray:
+    """L2 errors at `TRIAL_ANGLES` after the last movement by these springs and after the last swaps.
 
     Returns
     -------
@@ -249,23 +265,23 @@ ELSEWHERE = (
     ("franke", "81"),
     ("DD1", "33-refined"),
 )
-WEIGHTS = 1, 10, 100  # of the second derivative
-REST = 1e-3  # relative, of errors
-STOPS = MOST_SWEEPS, MOST_SWEEPS - 5  # sweeps, at either of which springs at rest give the same error
+WEIGHTS = 1, 10, 100  # weights of the second derivative in the springs
+STOPS = MOST_SWEEPS, MOST_SWEEPS - 5  # sweeps after which springs are stopped
+REST = 1e-3  # relative difference of the errors after either up to which springs are at rest
 
 
 @cache
-def elsewhere(function, nodes):
-    """L2 errors on a problem of the thesis: start, swapped, and with springs of these `WEIGHTS` before.
+def elsewhere(function: str, nodes: str) -> tuple[float, ...]:
+    """L2 errors on a problem of the thesis: start, swapped, and swapped after springs of all `WEIGHTS`.
 
-    NaN where the springs find no rest, and the error is that of the moment at which they are stopped.
+    An error is NaN if the springs find no rest, since it depends on when they are stopped.
     """
     u, mesh = problems.functions[function], problems.mesh(nodes)
     known = (measured(found, u)[L2] for found in (mesh, only_swapped(mesh, u)))
     return *known, *(_error_at_rest(mesh, u, weight) for weight in WEIGHTS)
 
 
-def _error_at_rest(mesh, u, weight):
+def _error_at_rest(mesh: Mesh, u: Function, weight: float) -> float:
     stopped = (moved_and_swapped(mesh, u, sweeps=most, second=weight) for most in STOPS)
     error, earlier = (measured(found, u)[L2] for found in stopped)
     return error if np.isclose(error, earlier, rtol=REST) else np.nan

@@ -1,4 +1,4 @@
-"""How far local optima are from the best mesh, by listing all meshes, and how near annealing comes."""
+"""How far local optima are from the best mesh, and how near annealing comes (section 7.6)."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -6,27 +6,30 @@ from functools import cache
 import numpy as np
 
 from ... import Mesh, annealed, criteria, local_optima, optimal, problems, swapped
+from ...mesh.topology import from_smallest, quadrilaterals
 from ...optima.enumeration import enumerated
+from ...swapping.annealing import Annealing
 from .appendix_b import small_mesh
-from .measures import l2_error
+from .measures import Function, l2_error
 
-SETS, NODES = 12, 10
+SETS, NODES = 12, 10  # small sets of nodes; nodes in each
 FUNCTIONS = "SR2", "franke"
 TWELVE = "franke", 5, 12  # function, seed and number of nodes: swapping misses the best for each of `LISTED`
-L2_ERROR, DEGREE = "min-error", 12  # of the quadrature, for elements are large
+L2_ERROR = "min-error"
+DEGREE = 12  # degree of the quadrature for the L2 error, high because the elements are large
 NORMS = 1, 2
 NC1, ANGLES = ("jnd", "abn", "dlp", "dfp"), ("smallest-angle", "largest-angle")
 CASES = (*((name, norm) for name in (*NC1, *ANGLES) for norm in NORMS), (L2_ERROR, 2))
 LISTED = ("jnd", 2), ("abn", 1), ("dlp", 1), ("dfp", 2)  # whose costs of all meshes are shown
-LEVELS, TRIES = 20, 40  # of annealing where there are few meshes
-SAME = 1e-9  # relative difference of costs that are the same
+LEVELS, TRIES = 20, 40  # temperatures, and tries for each edge in each, where there are few meshes
+SAME = 1e-9  # relative difference up to which costs count as equal
 LARGE = ("33", "SR2", "jnd", 2), ("81", "SR3", "abn", 1), ("81", "franke", "abn", 1)  # proofs take seconds
 SEEDS = range(5)
-ORDERS = 1000
+ORDERS = 1000  # random edge orders
 
 
-def title(name, norm):
-    """A criterion for people, for example ``"JND-$L_2$"``."""
+def title(name: str, norm: int) -> str:
+    """Criterion and norm as a page shows them, for example ``"JND-$L_2$"``."""
     if name == L2_ERROR:
         return "$L_2$ error"
     return f"{name.upper()}-$L_{norm}$" if name in NC1 else f"{name.replace('-', ' ')}, $L_{norm}$"
@@ -37,47 +40,62 @@ def title(name, norm):
 
 @dataclass(frozen=True)
 class Distances:
-    """Costs of small sets of nodes, one entry for each set and function.
+    """Costs of meshes of small sets of nodes, one entry for each set and function.
 
     Attributes
     ----------
     best, swapped, annealed : (n,) ndarray of float64
+        Cost of the best of all meshes, and of those that swapping and annealing reach.
     """
 
     best: np.ndarray
     swapped: np.ndarray
     annealed: np.ndarray
 
-    def excess(self, way):
-        """How much ``"swapped"`` or ``"annealed"`` costs more than the best mesh, relative to that."""
+    def excess(self, way: str) -> np.ndarray:
+        """Cost above that of the best mesh, relative to it, for ``"swapped"`` or ``"annealed"``."""
         return np.maximum(getattr(self, way) / self.best - 1, 0)
 
-    def share(self, way):
+    def share(self, way: str) -> float:
         """Share of the cases in which the best mesh is found."""
         return float((self.excess(way) <= SAME).mean())
 
 
-def criterion_of(name, function):
-    """The criterion of that name for a function."""
+def criterion_of(name: str, function: Function) -> criteria.Criterion:
+    """The criterion with a name; the L2 error is that of the function."""
     return criteria.min_error(function, degree=DEGREE) if name == L2_ERROR else criteria.get(name)
 
 
 @cache
-def small_case(seed, nodes=NODES):
-    """A Delaunay mesh of few random nodes, and all its meshes side by side."""
+def small_case(seed: int, nodes: int = NODES) -> tuple[Mesh, Mesh]:
+    """A Delaunay mesh of few random nodes, and all meshes of these nodes as one of many parts."""
     start = small_mesh(nodes, seed)
     return start, side_by_side(start, enumerated(start))
 
 
-def side_by_side(start, elements):
-    """Many meshes of the same nodes as one of many parts."""
+def side_by_side(start: Mesh, elements: np.ndarray) -> Mesh:
+    """Many meshes of the nodes of a start mesh as one mesh of many parts, all in the same place.
+
+    Parameters
+    ----------
+    start : Mesh
+    elements : (M, T, 3) ndarray of int32
+        The elements of each mesh.
+
+    Returns
+    -------
+    Mesh
+        It has its nodes M times and is not valid, since the parts overlap.
+    """
     count, n = len(elements), start.n_nodes
     rows = elements + n * np.arange(count, dtype=np.int32)[:, None, None]
-    return Mesh._trusted(np.tile(start.nodes, (count, 1)), rows.reshape(-1, 3))
+    return Mesh(np.tile(start.nodes, (count, 1)), rows.reshape(-1, 3))
 
 
-def costs_of_parts(start, every, values, criterion, norm):
-    """Norm of the cost vector of each mesh of `side_by_side`.
+def costs_of_parts(
+    start: Mesh, every: Mesh, values: np.ndarray, criterion: criteria.Criterion, norm: int
+) -> np.ndarray:
+    """Norm of the cost vector of each part of a mesh made by `side_by_side`.
 
     Examples
     --------
@@ -87,14 +105,20 @@ def costs_of_parts(start, every, values, criterion, norm):
     True
     """
     count = every.n_elements // start.n_elements
-    vector = criterion.costs(every, np.tile(values, count))
-    first = every.edges[:, 0] if criterion.on == "edge" else every.elements[:, 0]
-    return np.bincount(first // start.n_nodes, vector**norm, count) ** (1 / norm)
+    if criterion.on == "edge":
+        corners = quadrilaterals(every, np.flatnonzero(~every.boundary))[0][:, [1, 2, 0, 3]]
+    else:
+        corners = from_smallest(every.elements)
+    points = np.column_stack([every.nodes, np.tile(values, count)])
+    costs = criterion.cost(*points[corners.T])
+    return np.bincount(corners[:, 0] // start.n_nodes, costs**norm, count) ** (1 / norm)
 
 
 @cache
-def listed(name, norm, function, seed, nodes=NODES):
-    """The costs of all meshes of a small set of nodes, the start mesh first, and what annealing makes of it.
+def listed(
+    name: str, norm: int, function: str, seed: int, nodes: int = NODES
+) -> tuple[np.ndarray, Annealing]:
+    """The costs of all meshes of a small set of nodes, the start mesh first, and annealing from there.
 
     Returns
     -------
@@ -109,15 +133,16 @@ def listed(name, norm, function, seed, nodes=NODES):
 
 
 @cache
-def distances(name, norm, sets=SETS):
-    """What swapping and annealing reach on small sets of nodes, beside the best of all meshes.
+def distances(name: str, norm: int, sets: int = SETS) -> Distances:
+    """Costs that swapping and annealing reach on small sets of nodes, and those of the best meshes.
 
     Parameters
     ----------
     name : str
-        Of a criterion, or `L2_ERROR`.
+        Name of a criterion, or `L2_ERROR`.
     norm : {1, 2}
     sets : int
+        Number of sets of nodes.
 
     Returns
     -------
@@ -128,8 +153,8 @@ def distances(name, norm, sets=SETS):
     return Distances(*np.transpose(rows))
 
 
-def numbers_of_meshes():
-    """(sets,) int64: how many meshes each small set of nodes has."""
+def numbers_of_meshes() -> np.ndarray:
+    """(sets,) int64: the number of meshes of each small set of nodes."""
     return np.array([len(listed(*LISTED[0], FUNCTIONS[0], seed)[0]) for seed in range(SETS)])
 
 
@@ -138,17 +163,18 @@ def numbers_of_meshes():
 
 @dataclass(frozen=True)
 class Large:
-    """A larger problem: costs, and L2 errors, of what swapping and annealing reach.
+    """Costs and L2 errors of meshes of a larger problem.
 
     Attributes
     ----------
     swapped, orders, best : float
-        Costs: after swapping in natural order, the least of `ORDERS` random orders, and
+        Cost after swapping in natural order, the least after `ORDERS` random orders, and
         the proved least of all meshes.
     annealed : (n,) ndarray of float64
-        Costs, one for each seed.
+        Cost after annealing with each seed.
     error_swapped, error_annealed, error_best : float
-        L2 errors; the second of the mesh of the first seed of least cost.
+        L2 errors after swapping in natural order, of the cheapest annealed mesh (the first of
+        equally cheap ones), and of the proved optimum.
     """
 
     swapped: float
@@ -161,19 +187,19 @@ class Large:
 
 
 @cache
-def annealing(nodes, function, name, norm, seed):
+def annealing(nodes: str, function: str, name: str, norm: int, seed: int) -> Annealing:
     """Annealing on a start mesh of the thesis."""
     return annealed(problems.mesh(nodes), problems.functions[function], name, norm=norm, seed=seed)
 
 
-def in_natural_order(nodes, function, name, norm):
-    """The mesh that swapping alone leads to, where annealing starts."""
+def in_natural_order(nodes: str, function: str, name: str, norm: int) -> Mesh:
+    """The mesh that swapping in natural order leads to, where annealing starts."""
     return swapped(problems.mesh(nodes), problems.functions[function], name, norm=norm).mesh
 
 
 @cache
-def large(nodes, function, name, norm):
-    """Swapping, annealing and proof on a start mesh of the thesis."""
+def large(nodes: str, function: str, name: str, norm: int) -> Large:
+    """Swapping, annealing and the proved optimum on a start mesh of the thesis."""
     mesh, u = problems.mesh(nodes), problems.functions[function]
     runs = [annealing(nodes, function, name, norm, seed) for seed in SEEDS]
     least = min(runs, key=lambda run: run.cost_after)

@@ -2,47 +2,51 @@
 
 from dataclasses import dataclass
 from functools import cache
+from typing import TypeAlias
 
 import numpy as np
 
 from ... import Interpolant, Mesh, approximate, delaunay, problems
+from ...approximation.approximate import Approximation
+from .measures import Function
 
 DEFINITE, INDEFINITE = 4 / 45, 1 / 90  # squared error of the best element / (|det H| area^3)
-ZIGZAG = 0.75  # error of the best strips that meet the boundary half a strip apart / of parallel strips
-STEP = 3e-5  # of differences for second derivatives
-CELLS = 1000  # along a side, for the integral of the Hessian
-SQUARE = ((0.0, 0.0), (1.0, 1.0))
-# Where the Hessian of DD1 has full rank: the box around its spike.  Elsewhere it is linear but for
-# two kinks, which differences would take for curvature.
-BOXES = {"DD1": ((1.35 / 2.1, 0.25), (1.85 / 2.1, 0.75))}
+ZIGZAG = 0.75  # error of strips whose nodes on one side are half a strip ahead / of parallel strips
+STEP = 3e-5  # distance of the points from which second derivatives are computed
+CELLS = 1000  # cells along a side in the integral of the Hessian
+Box: TypeAlias = tuple[tuple[float, float], tuple[float, float]]  # lower left and upper right corner
+SQUARE: Box = ((0.0, 0.0), (1.0, 1.0))
+# The Hessian of DD1 has full rank on its spike alone, which this box encloses.  Elsewhere DD1 is
+# linear but for two kinks, which differences would take for curvature.
+BOXES: dict[str, Box] = {"DD1": ((1.35 / 2.1, 0.25), (1.85 / 2.1, 0.75))}
 
 NODES = tuple(50 * 2**k for k in range(6))
 DIRECTED_NODES = NODES[1::2]
-SHOWN = 400  # nodes of meshes to look at
-DEGREE = 12  # of the quadrature that measures
+SHOWN = 400  # nodes of the meshes that are shown
+DEGREE = 12  # degree of the quadrature that measures errors
 LEAST_ANGLE = 20.0  # degrees
 
 
-def ring(x, y):
+def ring(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """A steep front along a circle."""
     return np.tanh(20 * (np.hypot(x - 0.5, y - 0.5) - 0.3))
 
 
 FUNCTIONS = {"Franke": problems.functions["franke"], "SR3": problems.SR3, "DD1": problems.DD1, "ring": ring}
-DIRECTED = {"SR1": problems.SR1, "SR2": problems.SR2}  # that vary in one direction only, across a diagonal
+DIRECTED = {"SR1": problems.SR1, "SR2": problems.SR2}  # functions that vary across a diagonal only
 
 
 # -- the limit -----------------------------------------------------------------------------------
 
 
-def hessians(function, x, y, step=STEP):
+def hessians(function: Function, x: np.ndarray, y: np.ndarray, step: float = STEP) -> np.ndarray:
     """Second derivatives by central differences.
 
     Parameters
     ----------
     function : callable
     x, y : (n,) ndarray of float64
-        At a distance of ``step`` or more from where the function is not defined.
+        Points at least ``step`` away from where the function is not defined.
     step : float
 
     Returns
@@ -61,7 +65,7 @@ def hessians(function, x, y, step=STEP):
     return np.stack([xx, xy, xy, yy], axis=-1).reshape(*np.shape(x), 2, 2) / step**2
 
 
-def constant(function, box=SQUARE, cells=CELLS):
+def constant(function: Function, box: Box = SQUARE, cells: int = CELLS) -> float:
     """The constant B of the limit: no mesh of T elements has an L2 error much below B / T.
 
     Parameters
@@ -69,9 +73,9 @@ def constant(function, box=SQUARE, cells=CELLS):
     function : callable
         Vectorised u(x, y).
     box : pair of corners
-        Of a rectangle outside which the Hessian has no full rank.
+        A rectangle outside which the Hessian does not have full rank.
     cells : int
-        Of the midpoint rule, along a side.
+        Number of cells of the midpoint rule along a side.
 
     Returns
     -------
@@ -89,25 +93,25 @@ def constant(function, box=SQUARE, cells=CELLS):
     return float((total * size.prod()) ** 1.5)
 
 
-def _densities(function, x, y):
-    """The cube root of c |det H|, the density of elements in a best mesh but for a factor."""
+def _densities(function: Function, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The cube root of c |det H|, to which the density of elements in a best mesh is proportional."""
     xx, xy, _, yy = hessians(function, x, y).reshape(-1, 4).T
     det = xx * yy - xy**2
     return np.cbrt(np.where(det > 0, DEFINITE, INDEFINITE) * np.abs(det))
 
 
 @cache
-def limit(name):
+def limit(name: str) -> float:
     """The constant B of one of `FUNCTIONS`."""
     return constant(FUNCTIONS[name], BOXES.get(name, SQUARE))
 
 
-def error(mesh, function):
-    """L2 error by a quadrature that is not the one of `approximate`."""
+def error(mesh: Mesh, function: Function) -> float:
+    """L2 error by a quadrature other than that of `approximate`."""
     return Interpolant(mesh, function).l2_error(function, rule="exact", degree=DEGREE)
 
 
-def efficiency(mesh, function, bound):
+def efficiency(mesh: Mesh, function: Function, bound: float) -> float:
     """The error times the number of elements, in units of the limit.
 
     Parameters
@@ -135,24 +139,25 @@ def efficiency(mesh, function, bound):
 
 
 @cache
-def made(name, nodes=SHOWN, min_angle=None):
-    """The approximation of one of the functions; made once in a process."""
+def made(name: str, nodes: int = SHOWN, min_angle: float | None = None) -> Approximation:
+    """The approximation of one of the functions; computed once in a process."""
     return approximate((FUNCTIONS | DIRECTED)[name], nodes=nodes, min_angle=min_angle)
 
 
-def lattice(nodes):
-    """The Delaunay mesh of a square lattice of about so many nodes."""
+def lattice(nodes: int) -> Mesh:
+    """The Delaunay mesh of a square lattice with about the given number of nodes."""
     ticks = np.linspace(0, 1, round(nodes**0.5))
     return delaunay(np.stack(np.meshgrid(ticks, ticks), axis=-1).reshape(-1, 2))
 
 
 @cache
-def efficiencies(name):
-    """What `made` and `lattice` reach for all numbers of nodes.
+def efficiencies(name: str) -> np.ndarray:
+    """Efficiencies of the meshes `made` for a function and of lattices, for all numbers of nodes.
 
     Returns
     -------
-    made, lattice : (n,) ndarray of float64
+    (2, n) ndarray of float64
+        Those of `made`, those of `lattice`.
     """
     u, bound = FUNCTIONS[name], limit(name)
     meshes = [(made(name, nodes).mesh, lattice(nodes)) for nodes in NODES]
@@ -162,18 +167,18 @@ def efficiencies(name):
 # -- one direction -------------------------------------------------------------------------------
 
 
-def strip_constant(function, points=100_000):
-    r"""K of a function of the distance from a diagonal: the error of m parallel strips is K / m^2.
+def strip_constant(function: Function, points: int = 100_000) -> float:
+    """The constant K of parallel strips along a diagonal: m of them have the L2 error K / m^2.
 
     On a strip of width w the squared error of linear interpolation is f''^2 w^5 / 120 for each
-    unit of its length.  It is least, for m strips, if all have the same share of it.
+    unit of its length.  The sum for m strips is least if all have the same share of it.
 
     Parameters
     ----------
     function : callable
         Constant along one of the diagonals of the unit square.
     points : int
-        Of the midpoint rule along the other diagonal.
+        Number of points of the midpoint rule along the other diagonal.
 
     Returns
     -------
@@ -185,53 +190,60 @@ def strip_constant(function, points=100_000):
     0.4347
     """
     t = (np.arange(points) + 0.5) / points
-    h = hessians(function, t, t if _falls_along(function) else 1 - t)
+    h = hessians(function, t, t if _varies_upwards(function) else 1 - t)
     second = np.trace(h, axis1=1, axis2=2)  # the Laplacian: nothing is curved along the strip
     length = 2 * np.sqrt(2) * np.minimum(t, 1 - t)
     return float((np.sqrt(2) * np.mean((second**2 * length / 120) ** 0.2)) ** 2.5)
 
 
-def _falls_along(function):
-    """Whether it varies from (0, 0) to (1, 1), and not from (0, 1) to (1, 0)."""
+def _varies_upwards(function: Function) -> bool:
+    """Whether the function varies from (0, 0) to (1, 1), and not from (0, 1) to (1, 0)."""
     return bool(abs(function(1.0, 1.0) - function(0.0, 0.0)) > abs(function(1.0, 0.0) - function(0.0, 1.0)))
 
 
-def strip_error(function, nodes):
-    """Error of the mesh of parallel strips that has so many nodes, two for each strip and two more."""
+def strip_error(function: Function, nodes: int) -> float:
+    """L2 error of parallel strips with the given number of nodes, two for each strip and two more."""
     return strip_constant(function) / ((nodes - 2) / 2) ** 2
+
+
+def over_strips(name: str) -> np.ndarray:
+    """L2 errors of the meshes `made` for a function of `DIRECTED` over those of parallel strips."""
+    u = DIRECTED[name]
+    return np.array([error(made(name, n).mesh, u) / strip_error(u, n) for n in DIRECTED_NODES])
 
 
 # -- terrain and a hole --------------------------------------------------------------------------
 
 TERRAIN, TERRAIN_NODES = "jacksboro_fault_dem.npz", 1024  # sample data of matplotlib
 HOLE_RADIUS, HOLE_SIDES, HOLE_NODES = 0.15, 32, 300
-HOLE_CELLS = 10  # along a side of its first mesh
+HOLE_CELLS = 10  # cells along a side of the start mesh around the hole
 
 
 @dataclass(frozen=True)
 class Terrain:
-    """Heights on a grid, in metres, rows from south to north, and meshes for them.
+    """Heights on a grid and two surfaces that approximate them.
 
     Attributes
     ----------
     heights : (rows, columns) ndarray of float64
+        Samples in metres, rows from south to north.
     made, regular : Interpolant
-        By `approximate`, and on every so many samples.
+        The surface by `approximate`, and that on a lattice of samples.
     """
 
     heights: np.ndarray
     made: Interpolant
     regular: Interpolant
 
-    def differences(self, surface):
-        """Surface less heights at all samples."""
+    def differences(self, surface: Interpolant) -> np.ndarray:
+        """(rows, columns) float64: the surface minus the heights, at all samples."""
         rows, columns = self.heights.shape
         return surface(*np.meshgrid(np.arange(columns), np.arange(rows))) - self.heights
 
 
 @cache
-def terrain():
-    """The sample heights, approximated and on a lattice with as many nodes.
+def terrain() -> Terrain:
+    """Sample heights, approximated by a mesh made for them and on a lattice with as many nodes.
 
     Returns
     -------
@@ -239,7 +251,7 @@ def terrain():
     """
     from matplotlib.cbook import get_sample_data
 
-    with get_sample_data(TERRAIN) as data:
+    with np.load(get_sample_data(TERRAIN, asfileobj=False)) as data:
         heights = data["elevation"][::-1].astype(float)
     rows, columns = heights.shape
     found = approximate(heights, nodes=TERRAIN_NODES, domain=((0, 0), (columns - 1, rows - 1)))
@@ -250,14 +262,14 @@ def terrain():
     return Terrain(heights, found.interpolant, regular)
 
 
-def stream(x, y):
+def stream(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Stream function of the flow around a disc in the middle of the unit square."""
     x, y = x - 0.5, y - 0.5
     return y * (1 - HOLE_RADIUS**2 / (x * x + y * y))
 
 
-def square_with_hole():
-    """The unit square without a regular polygon in its middle.
+def square_with_hole() -> Mesh:
+    """A mesh of the unit square without a regular polygon in its middle.
 
     Examples
     --------
@@ -276,6 +288,6 @@ def square_with_hole():
 
 
 @cache
-def around_hole():
+def around_hole() -> Approximation:
     """The stream function approximated on the square with the hole."""
     return approximate(stream, nodes=HOLE_NODES, domain=square_with_hole())

@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 
+from ... import Mesh
 from ...errors import missing_extra
 from ...mesh.quality import angles
 from .experiments import run
@@ -27,7 +28,7 @@ THESIS = {
 COMBINED = ("SR1", "SR2", "SR3", "DD1")
 
 
-def stiffness(mesh):
+def stiffness(mesh: Mesh) -> np.ndarray:
     """Stiffness matrix of the Poisson problem with linear elements, assembled by scikit-fem.
 
     Parameters
@@ -37,7 +38,7 @@ def stiffness(mesh):
     Returns
     -------
     (n, n) ndarray of float64
-        Of the nodes that are not on the boundary, where the solution is prescribed.
+        Rows and columns of the inner nodes; on the boundary the solution is prescribed.
 
     Examples
     --------
@@ -56,8 +57,8 @@ def stiffness(mesh):
     return matrix.tocsr()[inner][:, inner].toarray()
 
 
-def conditions(mesh):
-    """Condition numbers of the stiffness matrix, as it is and scaled by its diagonal.
+def conditions(mesh: Mesh) -> tuple[float, float]:
+    """Condition numbers of the stiffness matrix K, as it is and scaled by its diagonal D.
 
     Parameters
     ----------
@@ -66,7 +67,7 @@ def conditions(mesh):
     Returns
     -------
     plain, scaled : float
-        In the 2-norm; the second of D^(-1/2) K D^(-1/2), D the diagonal of K.
+        Condition numbers in the 2-norm of K and of D^(-1/2) K D^(-1/2).
 
     Examples
     --------
@@ -76,12 +77,12 @@ def conditions(mesh):
     """
     matrix = stiffness(mesh)
     root = np.sqrt(np.diag(matrix))
-    return tuple(float(np.linalg.cond(m)) for m in (matrix, matrix / root / root[:, None]))
+    return float(np.linalg.cond(matrix)), float(np.linalg.cond(matrix / root / root[:, None]))
 
 
 @cache
-def families():
-    """Meshes of the report by where they are from, and in each by name."""
+def families() -> dict[str, dict[str, Mesh]]:
+    """Meshes of the report: where they come from -> name -> mesh."""
     free = {name: made(name).mesh for name in FUNCTIONS}
     limited = {name: made(name, min_angle=LEAST_ANGLE).mesh for name in FUNCTIONS}
     chapters = {f"chapter {number}": {key: run(key).mesh for key in keys} for number, keys in THESIS.items()}
@@ -94,7 +95,7 @@ def families():
 
 
 @cache
-def measured():
+def measured() -> dict[tuple[str, str], tuple[float, float, float]]:
     """(family, name) -> smallest angle in degrees and the two condition numbers."""
     return {
         (family, name): (float(np.degrees(angles(mesh.corners).min())), *conditions(mesh))
