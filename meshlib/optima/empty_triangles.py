@@ -118,11 +118,11 @@ class Candidates:
         elements = csr_array((np.where(inner[edge], side, 1).astype(float), (edge, triangle)), shape=shape)
         right = np.where(inner, 0.0, 1.0)
         if not n_pairs:
-            return elements, right
+            return _with_short_indices(elements), right
         rows, at = self._pair_rows()
         width = (shape[0], n_pairs)
         matrix = vstack([hstack([elements, csr_array(width)]), hstack([-at, rows])]).tocsr()
-        return matrix, np.concatenate([right, np.zeros(rows.shape[0])])
+        return _with_short_indices(matrix), np.concatenate([right, np.zeros(rows.shape[0])])
 
     def _pair_rows(self):
         """One row for each triangle at an inner edge: its pairs there, and the triangle itself."""
@@ -136,3 +136,9 @@ class Candidates:
         pairs = csr_array((np.ones(len(keys)), (row, column)), shape=(len(own), len(edge)))
         place = np.arange(len(own)), own % len(self)
         return pairs, csr_array((np.ones(len(own)), place), shape=(len(own), len(self)))
+
+
+def _with_short_indices(matrix):
+    """The matrix with indices of 32 bits, which integer programs need in SciPy before 1.15."""
+    matrix.indices, matrix.indptr = (v.astype(np.intc) for v in (matrix.indices, matrix.indptr))
+    return matrix
