@@ -11,6 +11,9 @@ LOWEST := .venv-lowest
 LOCK := .venv-lock
 # Installs the same as pip in a tenth of the time, and finds the oldest versions that are allowed.
 UV := uv==0.13.9
+# Tests that run with the oldest versions: one file for each part of the library.
+OLDEST := annealing.py backends.py combined.py criteria.py curves.py delaunay.py errors.py interpolant.py \
+    location.py mesh.py optimal.py quality.py raster.py records.py refinement.py smoothing.py swapping.py
 
 # The debugger inside Jupyter kernels warns about frozen modules; nobody debugs here.
 export PYDEVD_DISABLE_FILE_VALIDATION := 1
@@ -41,6 +44,16 @@ test: $(READY) ## Unit tests (both backends), doctests, the built book, notebook
 	    --ignore tests/test_backends.py --ignore tests/test_properties.py --ignore tests/browser
 	$(BIN)/python -m pytest tests meshlib notebooks --doctest-modules -rs \
 	    --nbval --nbval-current-env -n $(WORKERS) --dist loadfile
+
+# The core, and the extras that the library itself imports, in the oldest versions; the tools that
+# test are new. What needs the book, a browser or a cluster is left out.
+test-lowest: ## Unit tests with the oldest versions that pyproject.toml promises
+	$(PYTHON) -m venv $(LOWEST)
+	$(LOWEST)/bin/python -m pip install --quiet --disable-pip-version-check $(UV)
+	$(LOWEST)/bin/uv pip install --quiet --python $(LOWEST)/bin/python --resolution lowest-direct \
+	    -e '.[fast,plot,widgets,io,studies]'
+	$(LOWEST)/bin/uv pip install --quiet --python $(LOWEST)/bin/python pytest pytest-xdist hypothesis shewchuk
+	$(LOWEST)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile -W default $(addprefix tests/test_, $(OLDEST))
 
 notebooks: $(READY) ## Run the notebooks in place and strip what changes from run to run
 	$(BIN)/python book/execute.py notebooks/*.ipynb
