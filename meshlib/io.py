@@ -1,27 +1,40 @@
 """Meshes and nodal values in and out of files, through meshio."""
 
+from os import PathLike
+from typing import Any
+
 import numpy as np
 
 from . import checks
+from ._typing import NDArray, Values
 from .errors import InvalidInputError, missing_extra
 from .mesh.mesh import Mesh
 
+__all__ = ["read", "write"]
 
-def write(path, mesh, values=None):
+
+def write(path: str | PathLike[str], mesh: Mesh, values: Values | None = None) -> None:
     """Write a mesh, and nodal values if given, in the format of the file name.
 
     Parameters
     ----------
     path : str or path
-        For example ``"mesh.vtu"``; any format that meshio writes.
+        For example ``"mesh.vtu"``; any format that meshio writes.  An existing file is replaced.
     mesh : Mesh
+        Written with a third coordinate of 0.
     values : (N,) array_like of float, or callable, optional
-        Written as the point data ``u``.
+        Nodal values, or a vectorised function u(x, y); written as the point data ``u``.
 
     Raises
     ------
+    MeshError
+        If the values are not one finite number for each node.
     ImportError
         If meshio is not installed (extra ``io``).
+
+    See Also
+    --------
+    read : the way back.
 
     Examples
     --------
@@ -38,19 +51,20 @@ def write(path, mesh, values=None):
     _meshio().Mesh(points, [("triangle", mesh.elements)], point_data=data).write(path)
 
 
-def read(path):
-    """Read a mesh of triangles.
+def read(path: str | PathLike[str]) -> tuple[Mesh, dict[str, NDArray[Any]]]:
+    """Read a mesh of triangles, and the data at its nodes.
 
     Parameters
     ----------
     path : str or path
+        A file in any format that meshio reads.
 
     Returns
     -------
     mesh : Mesh
-        Validated; the third coordinate, if any, is left out.
+        Validated; a third coordinate is ignored.
     data : dict of str to ndarray
-        The point data of the file.
+        The point data of the file by name, arrays of N rows.
 
     Raises
     ------
@@ -58,6 +72,20 @@ def read(path):
         If the file holds no triangles, or they do not make a conforming mesh.
     ImportError
         If meshio is not installed (extra ``io``).
+
+    See Also
+    --------
+    write : writes such a file.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from meshlib import delaunay
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write(f"{folder}/square.vtk", delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]), [0, 1, 2, 1])
+    ...     mesh, data = read(f"{folder}/square.vtk")
+    >>> mesh.counts, data["u"].tolist()
+    ((4, 5, 2), [0.0, 1.0, 2.0, 1.0])
     """
     found = _meshio().read(path)
     triangles = found.cells_dict.get("triangle")
@@ -66,7 +94,7 @@ def read(path):
     return Mesh(found.points[:, :2], triangles).validate(), dict(found.point_data)
 
 
-def _meshio():
+def _meshio() -> Any:
     try:
         import meshio
     except ImportError:

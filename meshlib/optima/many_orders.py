@@ -2,7 +2,9 @@
 
 import sys
 import warnings
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -15,10 +17,12 @@ from ..mesh.mesh import Mesh
 from ..mesh.topology import canonical
 from ..support.progress import bar
 from ..support.random_numbers import permutation
+from ..swapping.procedure import Procedure
 from ..swapping.swapped import prepared
 
-ORDERS_AT_ONCE = 500  # how many a worker takes at most
-PARTS = 64  # into which fewer orders are cut, so that every worker gets some
+T = TypeVar("T")
+
+ORDERS_AT_ONCE = 500  # largest number of orders in a part of the work
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -28,7 +32,7 @@ class LocalOptima(Record):
     Attributes
     ----------
     mesh : Mesh
-        The optimum of least cost; of several the one found first.
+        The optimum of least cost; of equal ones the one found first.
     values : (N,) ndarray of float64
         The nodal values given.
     cost_before, cost_after : float
@@ -40,7 +44,11 @@ class LocalOptima(Record):
     optimum : (n,) ndarray of int64
         For each order the number of the optimum it leads to.
     seed : int
-        Order k is ``order_of(seed, k, n_edges)``.
+        Seed from which all orders were drawn.
+
+    See Also
+    --------
+    local_optima : makes such records.
     """
 
     cost_before: float
@@ -60,20 +68,26 @@ class LocalOptima(Record):
         return np.bincount(self.optimum, minlength=len(self))
 
     def mesh_of(self, number: int) -> Mesh:
-        """The optimum of that number as a Mesh."""
+        """The optimum of this number, from 0 to ``len(self) - 1``, as a Mesh."""
         return Mesh._trusted(self.mesh.nodes, self.elements[number])
 
 
-def order_of(seed, number, n_edges):
-    """The random edge order of that number, the same on every platform.
+def order_of(seed: int, number: int, n_edges: int) -> IntArray:
+    """One of the random edge orders of a seed, equal on every platform.
 
     Parameters
     ----------
-    seed, number, n_edges : int
+    seed : int
+        At least 0.
+    number : int
+        Number of the order, from 0.
+    n_edges : int
+        Number of edges of the mesh.
 
     Returns
     -------
     (n_edges,) ndarray of int64
+        Every edge number once.
 
     Examples
     --------
@@ -83,7 +97,7 @@ def order_of(seed, number, n_edges):
     return permutation([seed, number], n_edges)
 
 
-def local_optima(
+def local_optima(  # noqa: PLR0913 - the limits of `swapped`, and how many orders and workers
     mesh: Mesh,
     values: Values,
     criterion: str | Criterion = "jnd",
@@ -104,12 +118,13 @@ def local_optima(
     mesh, values, criterion, norm, min_angle, min_area, min_gain
         As for `meshlib.swapped`.
     orders : int
-        Number of orders.
+        Number of orders, at least 1.
     seed : int
         Seed of the orders, at least 0.
     workers : int, optional
         Number of processes that share the work, -1 for one on each core, not 0.  By default
-        what ``joblib.parallel_config`` says, else one.  The result does not depend on it.
+        the number that ``joblib.parallel_config`` sets, else one.  The result does not depend
+        on it.
     progress : bool
         Whether to show a progress bar.
 
@@ -121,10 +136,19 @@ def local_optima(
     ------
     MeshError
         As `meshlib.swapped`, or if ``orders``, ``seed`` or ``workers`` is out of range.
+    ImportError
+        If there are several workers and joblib is not installed, or a bar and not tqdm (both
+        in the extra ``studies``).
+
+    See Also
+    --------
+    meshlib.swapped : one run, with a given edge order.
+    meshlib.annealed : leaves local optima by swaps that raise the cost.
+    meshlib.optimal : the best mesh of all.
 
     Notes
     -----
-    The orders are shared out by joblib, on the cores of one machine or, with ``dask`` and
+    The orders are distributed by joblib, on the cores of one machine or, with ``dask`` and
     ``distributed`` installed here and meshlib on every machine, on a cluster::
 
         client = distributed.Client("scheduler:8786")  # or distributed.Client() for this machine
@@ -145,14 +169,20 @@ def local_optima(
     procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
     orders, seed = checks.whole(orders, 1, "orders"), checks.whole(seed, 0, "seed")
     workers = None if workers is None else checks.workers(workers)
-    size = min(ORDERS_AT_ONCE, -(-orders // PARTS))
-    parts = [(procedure, seed, range(k, min(k + size, orders))) for k in range(0, orders, size)]
+    parts = [(procedure, seed, numbers) for numbers in _parts(orders)]
     return _merged(procedure, seed, list(shared(_distinct, parts, workers, progress, total=len(parts))))
 
 
-def _distinct(procedure, seed, numbers):
-    """Distinct results of some orders, and for each order which one."""
-    known, optimum = {}, []
+def _parts(orders: int, count: int = 64) -> list[range]:
+    """Consecutive parts of the numbers of the orders; up to ``count``, so that all workers get some."""
+    size = min(ORDERS_AT_ONCE, -(-orders // count))
+    return [range(k, min(k + size, orders)) for k in range(0, orders, size)]
+
+
+def _distinct(procedure: Procedure, seed: int, numbers: Iterable[int]) -> tuple[list[bytes], list[int]]:
+    """Distinct results of some orders, each as its elements in bytes, and the result of each order."""
+    known: dict[bytes, int] = {}
+    optimum = []
     for number in numbers:
         done = procedure.run(order_of(seed, number, procedure.mesh.n_edges))
         key = canonical(done.elements).tobytes()
@@ -160,8 +190,10 @@ def _distinct(procedure, seed, numbers):
     return list(known), optimum
 
 
-def _merged(procedure, seed, parts):
-    known, optimum = {}, []
+def _merged(procedure: Procedure, seed: int, parts: Iterable[tuple[list[bytes], list[int]]]) -> LocalOptima:
+    """The results of all parts, numbered in the order in which they were found."""
+    known: dict[bytes, int] = {}
+    optimum = []
     for keys, local in parts:
         place = np.array([known.setdefault(key, len(known)) for key in keys])
         optimum.append(place[local])
@@ -169,32 +201,41 @@ def _merged(procedure, seed, parts):
     meshes = (Mesh._trusted(procedure.mesh.nodes, found) for found in elements)
     costs = np.array([procedure.cost(mesh) for mesh in meshes])
     best = Mesh._trusted(procedure.mesh.nodes, elements[costs.argmin()])
-    ends = procedure.cost(procedure.mesh), float(costs.min())
-    return LocalOptima(best, procedure.values, *ends, elements, costs, np.concatenate(optimum), seed)
+    before, after = procedure.cost(procedure.mesh), float(costs.min())
+    return LocalOptima(best, procedure.values, before, after, elements, costs, np.concatenate(optimum), seed)
 
 
-def shared(function, parts, workers=None, progress=False, unit="part", total=None):
-    """Results of ``function(*part)`` for each part, in order, from many workers.
+def shared(
+    function: Callable[..., T],
+    parts: Iterable[Sequence[Any]],
+    workers: int | None = None,
+    progress: bool = False,
+    unit: str = "part",
+    total: int | None = None,
+) -> Iterator[T]:
+    """Results of ``function(*part)`` for each part, in order, from one worker or several.
 
-    A generator; closing it cancels the work.  With ``progress`` a bar is shown,
-    which knows the end if ``total`` is given.
+    Closing the iterator cancels the work.  With ``progress`` a bar is shown; it counts in
+    ``unit`` and has an end if ``total``, the number of parts, is given.
     """
     results = _in_turn(function, parts) if _is_one(workers) else _in_parallel(function, parts, workers)
     return bar(results, total=total, unit=unit) if progress else results
 
 
-def _is_one(workers):
-    """Whether there is one worker; for None joblib tells, if it has been imported to be told of others."""
+def _is_one(workers: int | None) -> bool:
+    """Whether there is one worker; for None as joblib is configured, which must have been imported for it."""
     if workers is None and "joblib" in sys.modules:
-        return sys.modules["joblib"].effective_n_jobs(None) == 1
+        return bool(sys.modules["joblib"].effective_n_jobs(None) == 1)
     return workers in (None, 1)
 
 
-def _in_turn(function, parts):
+def _in_turn(function: Callable[..., T], parts: Iterable[Sequence[Any]]) -> Iterator[T]:
     return (function(*part) for part in parts)
 
 
-def _in_parallel(function, parts, workers):
+def _in_parallel(
+    function: Callable[..., T], parts: Iterable[Sequence[Any]], workers: int | None
+) -> Iterator[T]:
     joblib = _joblib()
     jobs = (joblib.delayed(function)(*part) for part in parts)
     results = joblib.Parallel(n_jobs=workers, return_as="generator")(jobs)
@@ -202,12 +243,12 @@ def _in_parallel(function, parts, workers):
         for result in results:  # noqa: UP028 - "yield from" would close them before the warning is silenced
             yield result
     finally:
-        with warnings.catch_warnings():  # that some work was in vain
+        with warnings.catch_warnings():  # joblib warns that some results were not used
             warnings.simplefilter("ignore")
             results.close()
 
 
-def _joblib():
+def _joblib() -> Any:
     try:
         import joblib
     except ImportError:
