@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from .. import checks, criteria
-from .._typing import Function, Norm
+from .._typing import BoolArray, Function, IntArray, NDArray, Norm
 from ..criteria import norms
 from ..criteria.criterion import Criterion
 from ..errors import InvalidInputError, UnknownNameError
@@ -15,14 +16,10 @@ from ..mesh.mesh import Mesh
 from ..mesh.topology import canonical
 from ..mesh.validation import halved
 from ..swapping.swapped import prepared
-from .patch import Objective
+from .patch import Objective, Patch
 
 WAYS = ("swap", "move")
-NORMS = (1, 2)
-LEAST_GAIN = 1e-6  # of the indicator at the start
-ROUNDING = 1e-12  # of the indicator of a patch
-MOST_SWEEPS = 1000
-DEGREE = 12  # of the quadrature of the default indicator
+LEAST_GAIN = 1e-6  # gain that a step must exceed, as a fraction of the indicator of the start mesh
 STEP = np.dtype(
     [("sweep", np.int32), ("node", np.int32), ("way", "U4"), ("gain", np.float64), ("indicator", np.float64)]
 )
@@ -30,27 +27,32 @@ STEP = np.dtype(
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Combination(Record):
-    """A mesh swapped and moved, and how it came about.
+    """A mesh that was swapped and moved, and the steps that led to it.
 
     Attributes
     ----------
     mesh : Mesh
+        The new mesh.
     values : (N,) ndarray of float64
-        Values of u at its nodes.
+        Values of u at the nodes of the new mesh.
     cost_before, cost_after : float
         Norm of the cost vector of the start mesh and of the new one.
     sweeps : int
         Number of sweeps over all interior nodes.
     period : int
-        0 if the last sweep changed nothing; else the number of sweeps after which the
-        procedure came back to a mesh that it had left, and would do so for ever; -1 if
-        the largest number of sweeps was reached.
+        0 if the last sweep changed nothing; -1 if the largest number of sweeps was reached;
+        else the procedure came back to an earlier mesh, and would do so again every
+        ``period`` sweeps.
     indicator : float
         Indicator of the start mesh: the sum of its costs, or of their squares.
     history : (n,) structured ndarray
-        Every accepted step, with the fields ``sweep``, ``node``, ``way`` (``"swap"`` or
-        ``"move"``), the ``gain`` in the indicator of the patch, and the ``indicator`` of
-        the whole mesh after it.
+        A row for each accepted step, with the fields ``sweep``, ``node``, ``way`` (``"swap"``
+        or ``"move"``), ``gain``, by which the indicator of the patch fell, and
+        ``indicator``, that of the whole mesh after the step.
+
+    See Also
+    --------
+    combined : makes such records.
     """
 
     cost_before: float
@@ -58,7 +60,7 @@ class Combination(Record):
     sweeps: int
     period: int
     indicator: float
-    history: np.ndarray
+    history: NDArray[Any]
 
 
 def combined(
@@ -71,36 +73,38 @@ def combined(
     rim: bool = True,
     min_angle: float | None = None,
     min_relative_gain: float = LEAST_GAIN,
-    max_sweeps: int = MOST_SWEEPS,
+    max_sweeps: int = 1000,
 ) -> Combination:
     """The mesh after the combined strategy: on each patch the better of swapping and moving.
 
-    Node by node, the patch of elements around an interior node is changed in two ways:
-    its inner edges are swapped, or the node is moved to the best position found.  The
-    way that lowers the indicator of the error more is kept, if it gains enough.
+    For one interior node after the other, two changes of the patch of elements around it
+    are tried: its inner edges are swapped, or the node is moved to the best position found.
+    The change that lowers the indicator of the error more is made, if it gains enough.
 
     Parameters
     ----------
     mesh : Mesh
         Start mesh; not changed.
     function : callable
-        Vectorised u(x, y), since nodes move to where no value was given.
+        Vectorised u(x, y).  Nodal values are not enough, since nodes move.
     criterion : str or Criterion, optional
         The indicator is the sum of the costs of this criterion, or of their squares.  By
         default that of the min-error criterion, the square of the L2 error.
     norm : {"L1", "L2"}
-        Also 1 and 2.
-    ways : tuple of {"swap", "move"}
-        Which ways to try.
+        Whether costs or their squares are summed; also 1 and 2.
+    ways : sequence of {"swap", "move"}, or one of them
+        Changes to try.
     rim : bool
         Whether the indicator of a patch includes the costs on its rim, which a step
-        changes too.  Without them each patch is a domain of its own, as the thesis has it.
+        changes too.  Without them each patch is treated as a separate domain, as in the
+        thesis.
     min_angle : float, optional
-        Steps that create an angle below this many degrees are refused.
+        Smallest angle, in degrees, that a step may create.
     min_relative_gain : float
-        What a step must gain, relative to the indicator of the start mesh; above 0.
+        Gain that a step must exceed, as a fraction of the indicator of the start mesh; above
+        0 and below 1.
     max_sweeps : int
-        Largest number of sweeps over all interior nodes.
+        Largest number of sweeps over all interior nodes, at least 1.
 
     Returns
     -------
@@ -109,19 +113,23 @@ def combined(
     Raises
     ------
     MeshError
-        If the mesh is not valid, a name is not known, or an argument out of range.
+        If the mesh is not valid, a name is not known, or an argument is out of range.
+
+    See Also
+    --------
+    meshlib.swapped, meshlib.smoothed : swapping alone, and moving nodes alone.
+    meshlib.approximate : the fast way to a small L2 error, for large meshes.
 
     Notes
     -----
-    *It terminates* with ``rim``, or if costs live on elements, after at most
-    ``1 / min_relative_gain`` steps: a step changes no cost outside what the indicator of its
-    patch counts, so that the indicator of the mesh, which is never negative, falls by as
-    much.  Without ``rim`` a criterion on edges or nodes may gain on a patch what it loses
-    beside it, and the procedure can come back to where it was.  That is noticed after
-    the sweep, and ends it.
+    *Termination.*  With ``rim``, or if costs belong to elements, there are at most
+    ``1 / min_relative_gain`` steps.  All costs that a step changes are part of the indicator
+    of its patch; so the indicator of the mesh, which is never negative, falls by the same
+    gain.  Without ``rim`` a criterion on edges or nodes may lose beside a patch what it gains
+    inside, and the procedure can come back to an earlier mesh.  This is checked after each
+    sweep, and ends the procedure.
 
-    Made for meshes of a few hundred nodes, with any criterion; `approximate` is the
-    fast way to a small L2 error.
+    The procedure is meant for meshes of a few hundred nodes, with any criterion.
 
     Examples
     --------
@@ -144,25 +152,35 @@ def combined(
     period = run.sweep(checks.whole(max_sweeps, 1, "max_sweeps"))
     green = mesh.green[halved(run.nodes, run.elements, mesh.green) & run.untouched(mesh)]
     result = Mesh._trusted(run.nodes, run.elements, green)
-    costs = (of ** (1 / objective.norm) for of in (run.indicator, objective.of(result)))
+    before, after = (of ** (1 / objective.norm) for of in (run.indicator, objective.of(result)))
     history = np.array(run.steps, dtype=STEP)
-    return Combination(result, run.values, *costs, run.count, period, run.indicator, history)
+    return Combination(result, run.values, before, after, run.count, period, run.indicator, history)
 
 
-def _objective(mesh, function, criterion, norm, rim, min_angle):
+def _objective(
+    mesh: Mesh,
+    function: Function,
+    criterion: str | Criterion | None,
+    norm: Norm,
+    rim: bool,
+    min_angle: float | None,
+    degree: int = 12,
+) -> Objective:
+    """The indicator, from checked arguments of `combined`; ``degree`` is that of the default quadrature."""
     if not callable(function):
         raise InvalidInputError(
             "type",
             f"u is a {type(function).__name__}; give a function u(x, y), "
             "since nodes move to where there is no value",
         )
-    norm = norms.checked(norm, NORMS)
-    criterion = criteria.min_error(function, degree=DEGREE) if criterion is None else criterion
-    swap = prepared(mesh, function, criterion, norm, min_angle, None, None)
-    return Objective(function, swap.criterion, norm, swap.tolerance, swap.limits, bool(rim))
+    power = int(norms.checked(norm, (1, 2)))
+    criterion = criteria.min_error(function, degree=degree) if criterion is None else criterion
+    swap = prepared(mesh, function, criterion, power, min_angle, None, None)
+    return Objective(function, swap.criterion, power, swap.tolerance, swap.limits, bool(rim))
 
 
-def _ways(ways):
+def _ways(ways: str | Sequence[str]) -> tuple[str, ...]:
+    """The ways to change a patch as a tuple, or a MeshError."""
     ways = (ways,) if isinstance(ways, str) else tuple(ways)
     for way in ways:
         checks.choice(way, WAYS, "way")
@@ -172,20 +190,23 @@ def _ways(ways):
 
 
 class _Run:
-    """A mesh on its way, and the steps taken."""
+    """The arrays of a mesh that is being changed, and the steps so far."""
 
-    def __init__(self, mesh, objective, ways, share):
+    rounding = 1e-12  # rounding error of the indicator of a patch, as a fraction of it
+
+    def __init__(self, mesh: Mesh, objective: Objective, ways: tuple[str, ...], share: float) -> None:
         self.objective, self.ways = objective, ways
         self.nodes, self.elements = mesh.nodes.copy(), mesh.elements.copy()
         self.values = objective.function(*mesh.nodes.T).astype(float)
         self.inside = ~mesh.boundary_nodes
-        self.due = self.inside.copy()  # not where nothing changed since a patch was found to gain nothing
+        self.due = self.inside.copy()  # nodes whose patch changed since no step was found for it
         self.indicator = objective.of(mesh)
         noise = objective.tolerance[1] ** objective.norm
-        self.least, self.steps, self.count = max(share * self.indicator, noise), [], 0
+        self.least, self.count = max(share * self.indicator, noise), 0
+        self.steps: list[tuple[int, int, str, float, float]] = []  # rows of the history
 
-    def sweep(self, most):
-        """Sweep until nothing changes or a mesh comes again; returns the period."""
+    def sweep(self, most: int) -> int:
+        """Sweep until nothing changes or an earlier mesh comes back; returns the period."""
         seen = {self._key(): 0}
         for self.count in range(1, most + 1):
             before = len(self.steps)
@@ -200,36 +221,37 @@ class _Run:
             seen[key] = self.count
         return -1
 
-    def _key(self):
+    def _key(self) -> bytes:
         return self.nodes.tobytes() + canonical(self.elements).tobytes()
 
-    def _improve(self, node):
-        """Steps 2 (a) to (c) of the algorithm."""
+    def _improve(self, node: int) -> None:
+        """Steps 2 (a) to (c) of the algorithm, for the patch around a node."""
         patch = self.objective.patch(self.nodes, self.elements, self.values, node)
         found = [getattr(patch, {"swap": "swapped", "move": "moved"}[way])() for way in self.ways]
         gains = [patch.error - changed.error for changed in found]
         k = int(np.argmax(gains))
-        self.due[node] = gains[k] > max(self.least, ROUNDING * patch.error)
+        self.due[node] = gains[k] > max(self.least, self.rounding * patch.error)
         if not self.due[node]:
             return
         self._take(found[k])
         after = self.objective.of(Mesh._trusted(self.nodes.copy(), self.elements.copy()))
         self.steps.append((self.count, node, self.ways[k], gains[k], after))
 
-    def _take(self, patch):
+    def _take(self, patch: Patch) -> None:
+        """Make the step that leads to this patch."""
         self.elements[patch.rows] = patch.own
         centre = patch.used[patch.centre]
         self.nodes[centre], self.values[centre] = patch.nodes[patch.centre], patch.values[patch.centre]
         self._wake(patch.own)
 
-    def _wake(self, changed):
-        """Patches whose costs depend on elements that changed are due again."""
+    def _wake(self, changed: IntArray) -> None:
+        """Mark the nodes whose patches have costs that depend on elements that changed, (n, 3)."""
         if self.objective.criterion.on != "element":
             here = np.zeros(len(self.nodes), dtype=bool)
             here[changed] = True
             changed = self.elements[here[self.elements].any(axis=1)]
         self.due[changed] = self.inside[changed]
 
-    def untouched(self, mesh):
-        """Green pairs whose elements are still in their rows."""
+    def untouched(self, mesh: Mesh) -> BoolArray:
+        """For each green pair of the start mesh whether both elements are still in their rows."""
         return (self.elements[mesh.green] == mesh.elements[mesh.green]).all(axis=(1, 2))

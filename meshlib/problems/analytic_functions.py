@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._typing import ArrayLike, FloatArray
 from ..checks import choice
 
 THESIS = "section 4.2 of the thesis, after Malcolm"
@@ -13,16 +14,24 @@ FRANKE = "Franke 1982; Renka & Brown 1999 (Algorithm 792)"
 
 @dataclass(frozen=True)
 class TestFunction:
-    """A vectorised function of x and y that knows where it comes from.
+    """A vectorised function u(x, y) with its formula and its source.
 
     Attributes
     ----------
     name : str
+        Name in ``problems.functions``.
+    function : callable
+        What is called, with float64 arrays x and y.
     formula : str
-        In LaTeX.
+        The right-hand side of u(x, y) = ..., in LaTeX.
     source : str
+        Publication that the function comes from, or its kind.
     note : str
         Known peculiarities.
+
+    See Also
+    --------
+    meshlib.problems.functions : all of them, by name.
 
     Examples
     --------
@@ -34,32 +43,33 @@ class TestFunction:
     __test__ = False  # not a test case, whatever its name says to pytest
 
     name: str
-    function: Callable
+    function: Callable[[FloatArray, FloatArray], FloatArray]
     formula: str
     source: str
     note: str = ""
 
-    def __call__(self, x, y):
+    def __call__(self, x: ArrayLike, y: ArrayLike) -> FloatArray:
+        """The values at points with the coordinates x and y, arrays of equal shape."""
         return self.function(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"TestFunction({self.name!r})"
 
 
-def _sr1(x, y):
+def _sr1(x: FloatArray, y: FloatArray) -> FloatArray:
     return (np.tanh(9 * y - 9 * x) + 1) / 9
 
 
-def _sr2(x, y):
+def _sr2(x: FloatArray, y: FloatArray) -> FloatArray:
     return (np.tanh(9 * y + 9 * x - 9) + 1) / 2
 
 
-def _sr3(x, y):
+def _sr3(x: FloatArray, y: FloatArray) -> FloatArray:
     g = 0.595576 * (y + 3.79762) ** 2 - x - 10
     return 1 + np.tanh(-3 * g)
 
 
-def _dd1(x, y):
+def _dd1(x: FloatArray, y: FloatArray) -> FloatArray:
     phi = 2.1 * x - 0.1
     height = y - phi
     r = np.hypot(phi - 1.5, y - 0.5)
@@ -67,7 +77,7 @@ def _dd1(x, y):
     return np.select([height >= 0.5, height >= 0], [1.0, 2 * height], spike)
 
 
-def _franke(x, y):
+def _franke(x: FloatArray, y: FloatArray) -> FloatArray:
     p, q = 9 * x, 9 * y
     return (
         0.75 * np.exp(-((p - 2) ** 2 + (q - 2) ** 2) / 4)
@@ -77,28 +87,28 @@ def _franke(x, y):
     )
 
 
-def _saddle(x, y):
+def _saddle(x: FloatArray, y: FloatArray) -> FloatArray:
     return (1.25 + np.cos(5.4 * y)) / (6 + 6 * (3 * x - 1) ** 2)
 
 
-def _from_centre(x, y):
+def _from_centre(x: FloatArray, y: FloatArray) -> FloatArray:
     return (x - 0.5) ** 2 + (y - 0.5) ** 2
 
 
-def _gentle(x, y):
+def _gentle(x: FloatArray, y: FloatArray) -> FloatArray:
     return np.exp(-81 / 16 * _from_centre(x, y)) / 3
 
 
-def _steep(x, y):
+def _steep(x: FloatArray, y: FloatArray) -> FloatArray:
     return np.exp(-81 / 4 * _from_centre(x, y)) / 3
 
 
-def _sphere(x, y):
+def _sphere(x: FloatArray, y: FloatArray) -> FloatArray:
     return np.sqrt(64 - 81 * _from_centre(x, y)) / 9 - 0.5
 
 
-class Functions(dict):
-    """Test functions by name; an unknown name is refused with the nearest one.
+class Functions(dict[str, TestFunction]):
+    """Test functions by name; the error for an unknown name proposes the nearest one.
 
     Examples
     --------
@@ -109,8 +119,8 @@ class Functions(dict):
     meshlib.errors.UnknownNameError: unknown: function 'sr1' is not known; did you mean 'SR1'? (known: ...)
     """
 
-    def __missing__(self, name):
-        return choice(name, tuple(self), "function")
+    def __missing__(self, name: str) -> TestFunction:
+        return self[choice(name, tuple(self), "function")]
 
 
 functions = Functions(

@@ -2,36 +2,52 @@
 
 from functools import cache
 from importlib.resources import files
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import checks
-from .._typing import FloatArray, IntArray
+from .._typing import FloatArray, IntArray, NDArray
 from ..mesh.delaunay import delaunay
 from ..mesh.mesh import Mesh
-from .analytic_functions import TestFunction, functions
+from .analytic_functions import functions
 
-__all__ = ["DD1", "SR1", "SR2", "SR3", "TestFunction", "functions", "mesh", "names", "nodes", "order"]
 
-SQUARE_NODES = [[0, 0], [1, 0], [1, 1], [0, 1]]
-SQUARE_EDGES = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]]
-SQUARE_ELEMENTS = [[0, 1, 2], [0, 2, 3]]
-REFINEMENTS_TO_81 = 3
+class Arrays(NamedTuple):
+    """A mesh as the arrays of section 4.4, whose rows are in the order in which they came about."""
+
+    nodes: FloatArray  # (N, 2)
+    edges: IntArray  # (E, 2)
+    elements: IntArray  # (T, 3)
+
+
+SQUARE = Arrays(
+    nodes=np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]),
+    edges=np.array([(0, 1), (1, 2), (2, 3), (3, 0), (0, 2)]),
+    elements=np.array([(0, 1, 2), (0, 2, 3)]),
+)
 
 SR1, SR2, SR3, DD1 = (functions[name] for name in ("SR1", "SR2", "SR3", "DD1"))
-
-NAMES = ("33", "33-refined", "81", "33-franke")
 
 
 def names() -> tuple[str, ...]:
     """Names of the node sets and start meshes.
+
+    Returns
+    -------
+    tuple of str
+        What `nodes`, `mesh` and `order` take.
+
+    See Also
+    --------
+    meshlib.problems : what each of them is.
 
     Examples
     --------
     >>> names()
     ('33', '33-refined', '81', '33-franke')
     """
-    return NAMES
+    return ("33", "33-refined", "81", "33-franke")
 
 
 def nodes(name: str) -> FloatArray:
@@ -40,22 +56,28 @@ def nodes(name: str) -> FloatArray:
     Parameters
     ----------
     name : {"33", "33-refined", "81", "33-franke"}
+        See `meshlib.problems` for what each of them is.
 
     Returns
     -------
     (N, 2) ndarray of float64
+        Coordinates x and y of the nodes.
 
     Raises
     ------
     MeshError
         If there is no node set of that name.
 
+    See Also
+    --------
+    mesh : the start mesh on these nodes.
+
     Examples
     --------
     >>> nodes("33")[:2].tolist()
     [[1.0, 1.0], [1.0, 0.0]]
     """
-    return _arrays(checks.choice(name, NAMES, "node set"))[0]
+    return _arrays(checks.choice(name, names(), "node set"))[0]
 
 
 @cache
@@ -65,67 +87,98 @@ def mesh(name: str) -> Mesh:
     Parameters
     ----------
     name : {"33", "33-refined", "81", "33-franke"}
+        See `meshlib.problems` for what each of them is.
 
     Returns
     -------
     Mesh
-        Delaunay.  On the nodes of Appendix A six quadrilaterals are cocircular, so
-        that 64 meshes are Delaunay; the stored one is that of the thesis, as its
-        printed numbers show.
+        A Delaunay mesh, but for ``"33-refined"`` a refined one.  On the nodes of Appendix A
+        six quadrilaterals are cocircular, so that 64 meshes are Delaunay; the stored one is
+        that of the thesis, as its printed numbers show.
+
+    Raises
+    ------
+    MeshError
+        If there is no node set of that name.
+
+    See Also
+    --------
+    nodes : the coordinates alone.
+    order : an order of the edges for `swapped`.
 
     Examples
     --------
     >>> mesh("33").counts, mesh("81").counts
     ((33, 88, 56), (81, 208, 128))
     """
-    found, _, elements = _arrays(checks.choice(name, NAMES, "node set"))
+    found, _, elements = _arrays(checks.choice(name, names(), "node set"))
     return Mesh(found, elements).validate()
 
 
 def order(name: str) -> IntArray:
-    """The order in which `swapped` inspects the edges of a start mesh.
+    """An order of the edges of a start mesh, with which `swapped` reproduces the thesis.
 
     Parameters
     ----------
     name : {"33", "33-refined", "81", "33-franke"}
+        See `meshlib.problems` for what each of them is.
 
     Returns
     -------
     (E,) ndarray of int64
-        For ``"81"`` and ``"33-refined"`` the order in which the edges came about by
-        refinement, for ``"33"`` element by element: natural orders that reproduce what
-        the thesis prints, which need not be its own.  For ``"33-franke"`` the order of
-        ``Mesh.edges``.
+        Every edge number once.  For ``"81"`` and ``"33-refined"`` in the order in which
+        refinement made the edges, for ``"33"`` element by element: natural orders that
+        reproduce the numbers printed in the thesis, which does not tell its orders.  For
+        ``"33-franke"`` in the order of ``Mesh.edges``.
+
+    Raises
+    ------
+    MeshError
+        If there is no node set of that name.
+
+    See Also
+    --------
+    meshlib.swapped : takes such an order.
 
     Examples
     --------
     >>> mesh("81").edges[order("81")[:2]].tolist()
     [[0, 25], [9, 25]]
     """
-    edges = _arrays(checks.choice(name, NAMES, "node set"))[1]
+    edges = _arrays(checks.choice(name, names(), "node set"))[1]
     return mesh(name).edge_numbers(edges)
 
 
 @cache
-def _arrays(name):
-    """Nodes, edges and elements, in the order in which they came about."""
+def _arrays(name: str) -> Arrays:
+    """Nodes, edges and elements of a start mesh."""
     return {"33": _stored, "33-refined": _stored_refined, "81": _lattice, "33-franke": _franke}[name]()
 
 
-def _lattice():
-    arrays = (np.array(SQUARE_NODES, dtype=float), np.array(SQUARE_EDGES), np.array(SQUARE_ELEMENTS))
-    for _ in range(REFINEMENTS_TO_81):
+def _lattice(refinements: int = 3) -> Arrays:
+    """A lattice of (2^refinements + 1)^2 nodes, from the square."""
+    arrays = SQUARE
+    for _ in range(refinements):
         arrays = split_in_four(*arrays)
     return arrays
 
 
-def _stored():
+def _stored() -> Arrays:
+    """The start mesh of Appendix A, whose files count elements from 1."""
     nodes, elements = _table("nodes33.csv", float)[:, 1:], _table("elements33.csv", int) - 1
-    return nodes, edges_by_element(elements), elements
+    return Arrays(nodes, edges_by_element(elements), elements)
 
 
-def edges_by_element(elements):
+def edges_by_element(elements: IntArray) -> IntArray:
     """The edges (a, b), (b, c), (c, a) of one element (a, b, c) after the other, each once.
+
+    Parameters
+    ----------
+    elements : (T, 3) ndarray of int
+
+    Returns
+    -------
+    (E, 2) ndarray of int
 
     Examples
     --------
@@ -137,23 +190,26 @@ def edges_by_element(elements):
     return sides[np.sort(first)]
 
 
-def _stored_refined():
-    nodes, edges, elements = _stored()
+def _stored_refined() -> Arrays:
+    """The start mesh of Appendix A with every element split in four."""
+    nodes, _, elements = _stored()
     return split_in_four(nodes, Mesh(nodes, elements).edges, elements)
 
 
-def _franke():
+def _franke() -> Arrays:
+    """The Delaunay mesh of the 33 nodes as Franke published them."""
     start = delaunay(_table("nodes33-franke.csv", float)[:, 1:])
-    return start.nodes, start.edges, start.elements
+    return Arrays(start.nodes, start.edges, start.elements)
 
 
-def _table(file, dtype):
+def _table(file: str, dtype: type) -> NDArray[Any]:
+    """The numbers of a file in `meshlib/data`."""
     with (files("meshlib") / "data" / file).open() as lines:
         return np.loadtxt(lines, delimiter=",", comments="#", dtype=dtype)
 
 
-def split_in_four(nodes, edges, elements):
-    r"""Bisect every edge of a mesh given by the arrays of section 4.4, keeping their order.
+def split_in_four(nodes: FloatArray, edges: IntArray, elements: IntArray) -> Arrays:
+    r"""The arrays of a mesh after every edge was bisected, in the order of the old ones.
 
     ::
 
@@ -171,7 +227,8 @@ def split_in_four(nodes, edges, elements):
 
     Returns
     -------
-    nodes : (N + E, 2) ndarray, edges : (2 E + 3 T, 2) ndarray, elements : (4 T, 3) ndarray
+    Arrays
+        N + E nodes, 2 E + 3 T edges and 4 T elements.
 
     Examples
     --------
@@ -188,4 +245,4 @@ def split_in_four(nodes, edges, elements):
     halves = np.stack([edges[:, 0], middle, middle, edges[:, 1]], axis=1).reshape(-1, 2)
     inner = np.stack([ab, ca, ab, bc, bc, ca], axis=1).reshape(-1, 2)
     children = np.stack([a, ab, ca, b, bc, ab, c, ca, bc, ab, bc, ca], axis=1).reshape(-1, 3)
-    return np.vstack([nodes, nodes[edges].mean(axis=1)]), np.vstack([halves, inner]), children
+    return Arrays(np.vstack([nodes, nodes[edges].mean(axis=1)]), np.vstack([halves, inner]), children)

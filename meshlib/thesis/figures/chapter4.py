@@ -10,7 +10,7 @@ import meshlib as ml
 from meshlib import problems
 from meshlib.geometry.predicates import incircle
 from meshlib.plotting import bare, framed, function_view, mark_nodes, number_nodes, panels, plot_mesh, style
-from meshlib.problems.start_meshes import SQUARE_NODES
+from meshlib.problems.start_meshes import SQUARE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,7 +32,7 @@ def figure_4_1() -> Figure:
 def figure_4_2() -> Figure:
     """The mesh of four nodes from which the 81 nodes are generated (Figure 4.2)."""
     figure, (ax,) = panels(size=PANEL)
-    plot_mesh(ax, ml.delaunay(SQUARE_NODES), nodes=True, ticks=True)
+    plot_mesh(ax, ml.delaunay(SQUARE.nodes), nodes=True, ticks=True)
     return figure
 
 
