@@ -1,6 +1,6 @@
 """The mesh for a known function: nodes in, the best piecewise linear function out."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -185,7 +185,7 @@ class Task:
     norm: str
     seed: int
     progress: bool
-    settings: Settings = Settings()
+    settings: Settings = field(default_factory=Settings)
 
     def with_nodes(self, nodes):
         """The mesh with a given number of nodes."""
