@@ -166,11 +166,11 @@ def approximate(
     seed = checks.whole(seed, 0, "seed")
     angle = checks.number(min_angle or 0, "min_angle", 0, LARGEST_MIN_ANGLE + 1e-9, "degrees from 0 to 30")
     function = function if callable(function) else Samples(function, *_box(domain))
-    norm = NORMS[norms.checked(norm, tuple(NORMS))]
-    task = Task(function, domain, float(np.radians(angle)), norm, seed, progress)
+    kind = NORMS[norms.checked(norm, (2, "max"))]
+    task = Task(function, domain, float(np.radians(angle)), kind, seed, progress)
     if (nodes is None) == (tolerance is None):
         raise InvalidInputError("nodes", f"nodes is {nodes} and tolerance is {tolerance}; give one of them")
-    if tolerance is None:
+    if nodes is not None:
         return task.with_nodes(checks.whole(nodes, 3, "nodes"))
     return task.within(_tolerance(tolerance))
 
