@@ -1,6 +1,7 @@
 """Meshes and nodal values in and out of files, through meshio."""
 
 from os import PathLike
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -94,7 +95,7 @@ def read(path: str | PathLike[str]) -> tuple[Mesh, dict[str, NDArray[Any]]]:
     return Mesh(found.points[:, :2], triangles).validate(), dict(found.point_data)
 
 
-def _meshio() -> Any:
+def _meshio() -> ModuleType:
     try:
         import meshio
     except ImportError:

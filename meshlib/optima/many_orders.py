@@ -97,7 +97,7 @@ def order_of(seed: int, number: int, n_edges: int) -> IntArray:
     return permutation([seed, number], n_edges)
 
 
-def local_optima(  # noqa: PLR0913 - the limits of `swapped`, and how many orders and workers
+def local_optima(
     mesh: Mesh,
     values: Values,
     criterion: str | Criterion = "jnd",
@@ -105,17 +105,15 @@ def local_optima(  # noqa: PLR0913 - the limits of `swapped`, and how many order
     norm: Norm = "L2",
     orders: int = 100,
     seed: int = 0,
-    min_angle: float | None = None,
-    min_area: float | None = None,
-    min_gain: float | None = None,
     workers: int | None = None,
     progress: bool = False,
+    **limits: float | None,
 ) -> LocalOptima:
     """Run the local optimisation procedure with many random edge orders (section 6.3).
 
     Parameters
     ----------
-    mesh, values, criterion, norm, min_angle, min_area, min_gain
+    mesh, values, criterion, norm
         As for `meshlib.swapped`.
     orders : int
         Number of orders, at least 1.
@@ -127,6 +125,8 @@ def local_optima(  # noqa: PLR0913 - the limits of `swapped`, and how many order
         on it.
     progress : bool
         Whether to show a progress bar.
+    **limits
+        ``min_angle``, ``min_area`` and ``min_gain``, as for `meshlib.swapped`.
 
     Returns
     -------
@@ -166,7 +166,7 @@ def local_optima(  # noqa: PLR0913 - the limits of `swapped`, and how many order
     >>> print(f"{len(found)} optima cost {found.costs.min():.1f} to {found.costs.max():.1f}")
     38 optima cost 16.8 to 22.1
     """
-    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
+    procedure = prepared(mesh, values, criterion, norm, **limits)
     orders, seed = checks.whole(orders, 1, "orders"), checks.whole(seed, 0, "seed")
     workers = None if workers is None else checks.workers(workers)
     parts = [(procedure, seed, numbers) for numbers in _parts(orders)]

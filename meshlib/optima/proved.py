@@ -119,7 +119,7 @@ def optimal(
     """
     mesh, criterion = checks.a_mesh(mesh), criteria.get(criterion)
     values = checks.nodal_values(mesh, values)
-    power = int(norms.checked(norm, (1, 2)))
+    power = 1 if norms.checked(norm, (1, 2)) == 1 else 2
     seconds = checks.number(seconds, "seconds", 0, np.inf, "a finite number of seconds of at least 0")
     if criterion.on == "node":
         raise UnknownNameError(

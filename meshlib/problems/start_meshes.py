@@ -92,9 +92,9 @@ def mesh(name: str) -> Mesh:
     Returns
     -------
     Mesh
-        A Delaunay mesh, but for ``"33-refined"`` a refined one.  On the nodes of Appendix A
-        six quadrilaterals are cocircular, so that 64 meshes are Delaunay; the stored one is
-        that of the thesis, as its printed numbers show.
+        A Delaunay mesh, but for ``"33-refined"`` that of ``"33"`` with every element split
+        in four.  On the nodes of Appendix A six quadrilaterals are cocircular, so that 64
+        meshes are Delaunay; the stored one is that of the thesis, as its printed numbers show.
 
     Raises
     ------
