@@ -57,6 +57,7 @@ class State:
 
     @property
     def elements(self):
+        """The elements as they are."""
         return _elements(self.apex)
 
     def inspect(self, e, sweep):
