@@ -219,8 +219,8 @@ def test_an_unknown_backend_is_named():
     result = run("from meshlib.kernels import for_work; for_work(1)", "nuba")
     assert result.returncode == 1
     assert result.stderr.splitlines()[-1] == (
-        "meshlib.errors.UnknownNameError: unknown: MESHLIB_BACKEND 'nuba' is not known; did you mean 'numba'? "
-        "(known: 'auto', 'numba', 'python')"
+        "meshlib.errors.UnknownNameError: unknown: MESHLIB_BACKEND 'nuba' is not known; "
+        "did you mean 'numba'? (known: 'auto', 'numba', 'python')"
     )
 
 

@@ -27,10 +27,10 @@ def cluster():
 
 @pytest.mark.parametrize("arguments", [{}, {"workers": -1, "progress": True}])
 def test_a_cluster_finds_what_one_core_finds(cluster, arguments):
-    problem = problems.mesh("33"), problems.SR2, "abn", 1
-    alone = local_optima(*problem, orders=70, workers=1)
+    problem = problems.mesh("33"), problems.SR2, "abn"
+    alone = local_optima(*problem, norm="L1", orders=70, workers=1)
     with joblib.parallel_config(**cluster):
-        found = local_optima(*problem, orders=70, **arguments)
+        found = local_optima(*problem, norm="L1", orders=70, **arguments)
     for name in ("elements", "costs", "optimum"):
         assert np.array_equal(getattr(found, name), getattr(alone, name))
 
