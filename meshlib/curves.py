@@ -1,52 +1,68 @@
 r"""Nodes along a smooth closed boundary, and start meshes of the domain inside (section 7.2).
 
-A curve is a function of a parameter t from 0 to 1 that returns the arrays x and y, with the
-same point at both ends.  Chords between nodes on it leave slivers::
+A curve is a function of a parameter t from 0 to 1 that returns the arrays x and y; it is closed,
+so that t = 0 and t = 1 give the same point.  Chords between nodes on it leave slivers::
 
           . - ~ ~ ~ - .
         .               .       an arc of length h and curvature k
        s_i ----------- s_i+1    above its chord: a sliver of area k h^3 / 12
 
-The total is least where the integral of k^(1/3) is the same between any two neighbours: a
-mesh problem in one dimension, cut open at t = 0.  `boundary_parameters` solves it; what it
-returns goes, with the curve, into `deviation` and `domain_mesh`.
+Their total area is least if the integral of k^(1/3) between any two neighbours is the same: a
+mesh problem in one dimension, cut open at t = 0.  `boundary_parameters` solves it; the
+parameters it returns are handed, with the curve, to `deviation` and `domain_mesh`.
 """
+
+from collections.abc import Callable, Iterable
+from typing import TypeAlias
 
 import numpy as np
 
 from . import checks
+from ._typing import ArrayLike, FloatArray, Function
 from .errors import InvalidInputError, InvalidMeshError
+from .geometry.curve_sampling import (
+    DENSITIES,
+    arc_parameters,
+    data_density,
+    derivative,
+    refuse_open,
+    refuse_unordered,
+    sliver_areas,
+)
 from .geometry.polygons import inside, lattice_inside
 from .mesh.delaunay import delaunay
 from .mesh.mesh import Mesh
 
-DENSITIES = ("curvature", "length", "parameter")
-SAMPLES = 4096  # of the curve, along which the density is integrated
-CLOSED = 1e-9  # gap between both ends of a curve, relative to its extent
-PER_ARC = 256  # parts of an arc, over which a sliver is integrated
-DATA_POWER, CURVATURE_POWER = 2 / 5, 1 / 3
-NOISE = 8  # units of rounding in a second difference
-SMALLEST_RING = 3
+__all__ = ["boundary_parameters", "deviation", "domain_mesh", "equidistributed"]
+
+Curve: TypeAlias = Callable[[FloatArray], Iterable[ArrayLike]]  # vectorised: t to the arrays x and y
+
+SMALLEST_RING = 3  # number of nodes of the smallest polygon
 
 
-def equidistributed(density, n):
-    """Parameters between which a periodic density has the same integral.
+def equidistributed(density: ArrayLike, n: int) -> FloatArray:
+    """Parameters that cut a periodic density into parts of equal integral.
 
     Parameters
     ----------
     density : (m,) array_like of float
-        Values of at least 0 at the parameters 0, 1/m, 2/m, ...
+        Values of at least 0 at the parameters 0, 1/m, 2/m, ...; linear between them.
     n : int
+        Number of parameters, at least 1.
 
     Returns
     -------
     (n,) ndarray of float64
-        Ascending from 0, where the period is cut open.
+        Ascending from 0, where the period is cut open, and below 1.
 
     Raises
     ------
     MeshError
-        If a value is negative or not finite, or all are 0.
+        If a value is negative or not finite, all are 0, or ``n`` is out of range.
+
+    See Also
+    --------
+    boundary_parameters : for a density that belongs to a curve.
 
     Examples
     --------
@@ -73,34 +89,46 @@ def equidistributed(density, n):
     return np.interp(total[-1] * np.arange(n) / n, total, np.linspace(0, 1, len(total)))
 
 
-def boundary_parameters(curve, n, density="curvature", even=0.0):
+def boundary_parameters(
+    curve: Curve, n: int, density: str | Function = "curvature", even: float = 0.0
+) -> FloatArray:
     """Parameters of n nodes along a closed curve.
 
     Parameters
     ----------
     curve : callable
-        Vectorised: t from 0 to 1 to the arrays x and y.
+        Vectorised and closed: an array of t from 0 to 1 to the arrays x and y.
     n : int
-        At least 3.
+        Number of nodes, at least 3.
     density : {"curvature", "length", "parameter"} or callable
-        What is the same between any two neighbours: the integral over the arc length s of
-        ``|k|^(1/3)``, which makes the area between curve and polygon least; the arc
-        length; the parameter; or for a function u(x, y) the integral of
-        ``|u_ss|^(2/5)``, which makes the L2 error of linear interpolation along the
-        curve least.
+        Measure of an arc; it is the same between any two neighbours:
+
+        - ``"curvature"``: the integral of ``|k|^(1/3)`` over the arc length, where k is the
+          curvature.  It makes the area between curve and polygon least.
+        - ``"length"``: the arc length.
+        - ``"parameter"``: the difference of the parameters.
+        - a vectorised function u(x, y): the integral of ``|u_ss|^(2/5)`` over the arc length,
+          where u_ss is the second derivative along the curve.  It makes the L2 error of
+          linear interpolation along the curve least.
     even : float
         Share of the nodes, from 0 to 1, that is spread evenly over the arc length
-        whatever the density is, so that straight stretches get some as well.
+        whatever the density is, so that straight stretches get nodes as well.
 
     Returns
     -------
     (n,) ndarray of float64
-        Ascending from 0.
+        Ascending from 0, and below 1.
 
     Raises
     ------
     MeshError
-        If the curve is not closed or not finite, or an argument out of range.
+        If the curve is not closed, curve or function is not finite, or an argument is out
+        of range.
+
+    See Also
+    --------
+    deviation : the area between the curve and the polygon of these nodes.
+    domain_mesh : a start mesh with these boundary nodes.
 
     Examples
     --------
@@ -114,69 +142,68 @@ def boundary_parameters(curve, n, density="curvature", even=0.0):
     n = checks.whole(n, SMALLEST_RING, "n")
     even = checks.number(even, "even", 0, np.nextafter(1, 2), "a share from 0 to 1")
     points = _sampled(curve)
-    speed = np.hypot(*_derivative(points))
+    speed = np.hypot(*derivative(points))
     if callable(density):
-        found = _of_data(points, speed, density)
+        found = data_density(_values_on_curve(density, points), speed)
     else:
-        found = _OF_CURVE[checks.choice(density, DENSITIES, "density")](points, speed)
+        found = DENSITIES[checks.choice(density, tuple(DENSITIES), "density")](points, speed)
     if even == 1:
         return equidistributed(speed, n)
     return equidistributed((1 - even) * found / (found.mean() or 1) + even * speed / speed.mean(), n)
 
 
-def deviation(curve, parameters):
+def deviation(curve: Curve, parameters: ArrayLike) -> float:
     """Area between a closed curve and the polygon with nodes at the given parameters.
 
     Parameters
     ----------
     curve : callable
-        As for `boundary_parameters`.
+        Vectorised and closed: an array of t from 0 to 1 to the arrays x and y.
     parameters : (n,) array_like of float
-        At least 3, ascending, within one period.
+        Parameters of the nodes: at least 3, ascending, within one period.
 
     Returns
     -------
     float
-        Slivers inside and outside both count with their size.
+        The sum of the areas of all slivers, in the unit of the coordinates squared; those
+        outside the curve count as much as those inside.
 
     Raises
     ------
     MeshError
-        If the parameters are too few or do not ascend within one period.
+        If the parameters are too few or do not ascend within one period, or the curve is
+        not closed or not finite.
+
+    See Also
+    --------
+    boundary_parameters : the parameters for which this area is least.
 
     Examples
     --------
-    Of a circle around a square:
+    A square leaves pi - 2 of the unit circle around it:
 
     >>> def circle(t):
     ...     return np.cos(2 * np.pi * t), np.sin(2 * np.pi * t)
     >>> round(deviation(circle, [0, 0.25, 0.5, 0.75]), 3), round(np.pi - 2, 3)
     (1.142, 1.142)
     """
-    start = _ascending(curve, parameters)
-    end = np.append(start[1:], start[0] + 1)
-    t = start[:, None] + (end - start)[:, None] * np.linspace(0, 1, PER_ARC + 1)
-    x, y = _points(curve, t % 1)
-    chord = np.stack([x[:, -1] - x[:, 0], y[:, -1] - y[:, 0]])[..., None]
-    away = np.stack([x - x[:, :1], y - y[:, :1]])
-    along = (away * chord).sum(axis=0)
-    height = np.abs(chord[0] * away[1] - chord[1] * away[0])
-    slivers = ((height[:, 1:] + height[:, :-1]) / 2 * np.diff(along)).sum(axis=1)
-    return float((slivers / (chord**2).sum(axis=0)[:, 0]).sum())
+    x, y = _points(curve, arc_parameters(_ascending(curve, parameters)))
+    return float(sliver_areas(x, y).sum())
 
 
-def domain_mesh(curve, parameters, spacing=None):
+def domain_mesh(curve: Curve, parameters: ArrayLike, spacing: float | None = None) -> Mesh:
     """A start mesh of the domain inside a closed curve.
 
     Parameters
     ----------
     curve : callable
-        As for `boundary_parameters`; it goes round counter-clockwise.
+        Vectorised and closed: an array of t from 0 to 1 to the arrays x and y; the curve runs
+        counter-clockwise.
     parameters : (n,) array_like of float
-        Of the boundary nodes: at least 3, ascending, within one period.
+        Parameters of the boundary nodes: at least 3, ascending, within one period.
     spacing : float, optional
-        Of the inner nodes, which form a lattice of equilateral triangles; by default the
-        mean length of the boundary edges.
+        Distance of neighbouring inner nodes, in the unit of the coordinates; they form a
+        lattice of equilateral triangles.  By default the mean length of the boundary edges.
 
     Returns
     -------
@@ -186,15 +213,20 @@ def domain_mesh(curve, parameters, spacing=None):
     Raises
     ------
     MeshError
-        If the parameters are too few or do not ascend within one period, the curve goes
-        round clockwise or crosses itself, or an edge of the boundary is no Delaunay edge.
+        If the parameters are too few or do not ascend within one period, the curve runs
+        clockwise or crosses itself, or an edge of the boundary is not a Delaunay edge.
+
+    See Also
+    --------
+    boundary_parameters : where the boundary nodes should be.
+    meshlib.smoothed, meshlib.refined : what improves the mesh inside.
 
     Notes
     -----
-    The Delaunay mesh of boundary and inner nodes covers their convex hull.  For a convex
-    domain this is all.  For another one the elements outside the polygon are left out,
-    which is possible if every edge of the polygon is an edge of that mesh; enough boundary
-    nodes, close together where two parts of the boundary are near each other, see to it.
+    The Delaunay mesh of boundary and inner nodes covers their convex hull, which is the
+    domain if the polygon is convex.  If it is not, the elements outside it are removed.
+    Every edge of the polygon must therefore be an edge of the Delaunay mesh, as it is with
+    enough boundary nodes where two parts of the boundary are near each other.
 
     Examples
     --------
@@ -215,30 +247,17 @@ def domain_mesh(curve, parameters, spacing=None):
     return Mesh(whole.nodes, whole.elements[inside(ring, whole.corners.mean(axis=1))]).validate()
 
 
-def _ascending(curve, parameters):
-    """Parameters of nodes in order along a closed curve, or a MeshError."""
+def _ascending(curve: Curve, parameters: ArrayLike) -> FloatArray:
+    """The parameters of nodes as an ascending array, or a MeshError; the curve is checked as well."""
     _sampled(curve)
     t = checks.numeric(parameters, "parameters")
-    if t.ndim != 1 or len(t) < SMALLEST_RING:
-        raise InvalidInputError(
-            "shape",
-            f"parameters have shape {t.shape}; give one number for each of at least {SMALLEST_RING} nodes",
-        )
-    bad = np.flatnonzero(~(np.diff(t, append=t[0] + 1) > 0))
-    if bad.size:
-        k = (bad[0] + 1) % len(t)
-        raise InvalidInputError(
-            "order",
-            f"parameter {k} is {t[k]:g}, which does not follow {t[bad[0]]:g}; "
-            "give them ascending, within one period",
-            (k,),
-        )
+    refuse_unordered(t, SMALLEST_RING)
     return t
 
 
-def _refuse_missing(mesh, n):
-    """Raise a MeshError that names an edge between the first n nodes that the mesh does not have."""
-    pairs = np.sort(np.column_stack([np.arange(n), (np.arange(n) + 1) % n]), axis=1)
+def _refuse_missing(mesh: Mesh, n: int) -> None:
+    """Raise a MeshError if an edge of the ring of the first n nodes is not in the mesh."""
+    pairs = np.sort(np.column_stack([np.arange(n), np.roll(np.arange(n), -1)]), axis=1)
     known = np.isin(pairs @ [mesh.n_nodes, 1], mesh.edges.astype(np.int64) @ [mesh.n_nodes, 1])
     if not known.all():
         i, j = pairs[~known][0]
@@ -246,26 +265,19 @@ def _refuse_missing(mesh, n):
             "boundary",
             f"boundary nodes {i} and {j} are not joined in the Delaunay mesh; "
             "give more boundary nodes or a larger spacing",
-            (i, j),
+            pairs[~known].ravel(),
+            len(pairs[~known]),
         )
 
 
-# -- densities --------------------------------------------------------------------------
-
-
-def _sampled(curve):
-    """Points (2, SAMPLES) of a closed curve at equal steps of its parameter, or a MeshError."""
-    points = _points(curve, np.linspace(0, 1, SAMPLES + 1))
-    if np.abs(points[:, -1] - points[:, 0]).max() > CLOSED * np.ptp(points, axis=1).max():
-        raise InvalidInputError(
-            "closed",
-            f"the curve is at {_text(points[:, 0])} for t = 0 and at "
-            f"{_text(points[:, -1])} for t = 1; give a closed one",
-        )
+def _sampled(curve: Curve, samples: int = 4096) -> FloatArray:
+    """Points of a closed curve at equal steps of its parameter, (2, samples), or a MeshError."""
+    points = _points(curve, np.linspace(0, 1, samples + 1))
+    refuse_open(points)
     return points[:, :-1]
 
 
-def _points(curve, t):
+def _points(curve: Curve, t: FloatArray) -> FloatArray:
     """The arrays x and y, stacked, at parameters of any shape, or a MeshError."""
     if not callable(curve):
         raise InvalidInputError(
@@ -277,44 +289,11 @@ def _points(curve, t):
     return points
 
 
-def _text(point):
-    return "({:g}, {:g})".format(*point)
-
-
-def _derivative(values):
-    """Periodic central difference along the last axis."""
-    return (np.roll(values, -1, axis=-1) - np.roll(values, 1, axis=-1)) * values.shape[-1] / 2
-
-
-def _second(values):
-    return (np.roll(values, -1, axis=-1) - 2 * values + np.roll(values, 1, axis=-1)) * values.shape[-1] ** 2
-
-
-def _of_curvature(points, speed):
-    """|k|^(1/3) ds/dt, in which the speed cancels: the affine arc length."""
-    (x, y), (xx, yy) = _derivative(points), _second(points)
-    return _above_noise(x * yy - y * xx, points * speed) ** CURVATURE_POWER
-
-
-def _above_noise(second, values):
-    """Size of second differences, 0 where they are but the rounding of such values."""
-    noise = NOISE * np.finfo(float).eps * SAMPLES**2 * np.abs(values).max()
-    return np.where(np.abs(second) > noise, np.abs(second), 0)
-
-
-_OF_CURVE = {
-    "curvature": _of_curvature,
-    "length": lambda points, speed: speed,
-    "parameter": lambda points, speed: np.ones_like(speed),
-}
-
-
-def _of_data(points, speed, function):
-    """|u_ss|^(2/5) ds/dt, with u_ss = (u_tt - u_t speed_t / speed) / speed^2."""
+def _values_on_curve(function: Function, points: FloatArray) -> FloatArray:
+    """Values of u(x, y) at points (2, n), as an (n,) float64 array, or a MeshError."""
     u = checks.numeric(function(*points), "values")
-    if u.shape != speed.shape or not np.isfinite(u).all():
+    if u.shape != points.shape[1:] or not np.isfinite(u).all():
         raise InvalidInputError(
             "finite", "the function must return one finite value for each point of the curve"
         )
-    u_ss = (_second(u) - _derivative(u) * _derivative(speed) / speed) / speed**2
-    return _above_noise(u_ss, u / speed**2) ** DATA_POWER * speed
+    return u

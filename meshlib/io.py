@@ -1,13 +1,18 @@
 """Meshes and nodal values in and out of files, through meshio."""
 
+from os import PathLike
+from types import ModuleType
+from typing import Any
+
 import numpy as np
 
 from . import checks
+from ._typing import NDArray, Values
 from .errors import InvalidInputError, missing_extra
 from .mesh.mesh import Mesh
 
 
-def write(path, mesh, values=None):
+def write(path: str | PathLike[str], mesh: Mesh, values: Values | None = None) -> None:
     """Write a mesh, and nodal values if given, in the format of the file name.
 
     Parameters
@@ -38,7 +43,7 @@ def write(path, mesh, values=None):
     _meshio().Mesh(points, [("triangle", mesh.elements)], point_data=data).write(path)
 
 
-def read(path):
+def read(path: str | PathLike[str]) -> tuple[Mesh, dict[str, NDArray[Any]]]:
     """Read a mesh of triangles.
 
     Parameters
@@ -66,7 +71,7 @@ def read(path):
     return Mesh(found.points[:, :2], triangles).validate(), dict(found.point_data)
 
 
-def _meshio():
+def _meshio() -> ModuleType:
     try:
         import meshio
     except ImportError:

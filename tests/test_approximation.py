@@ -136,15 +136,23 @@ def test_a_function_may_return_an_array_that_it_keeps():
     assert kept.flags.writeable
 
 
+def drained(steps):
+    """All that a generator yields, and what it returns."""
+    seen = []
+
+    def watched():
+        seen.append((yield from steps))
+
+    return list(watched()), seen[0]
+
+
 def test_rounds_of_renewal_go_on_with_the_best_draft_met(rng):
-    draft = draft_of(front, delaunay(scattered(rng, 80)))
-    met, rounds = [draft], strategy.renewed_in_rounds(draft, draft.n_nodes, 4)
-    with pytest.raises(StopIteration) as end:
-        while True:
-            step, draft = next(rounds)
-            met += [draft] if step == "moved" else []
-    assert len(met) == 5 and {draft.n_nodes for draft in met} == {96}
-    assert end.value.value is min(met, key=objective)
+    start = draft_of(front, delaunay(scattered(rng, 80)))
+    steps, best = drained(strategy.renewed_in_rounds(start, start.n_nodes, 4))
+    met = [start, *(draft for step, draft in steps if step == "moved")]
+    assert len(met) == 5
+    assert {draft.n_nodes for draft in met} == {96}
+    assert best is min(met, key=objective)
 
 
 def test_moves_and_swaps_never_raise_the_error(rng):
@@ -578,29 +586,27 @@ def test_samples_give_the_mesh_of_their_function():
 
 
 @pytest.mark.parametrize(
-    "arguments, message",
+    "function, options, message",
     [
-        ((front,), "nodes: nodes is None and tolerance is None; give one of them"),
+        (front, {}, "nodes: nodes is None and tolerance is None; give one of them"),
         (
-            (front, 9, ((0, 0), (1, 1)), None, 0, False, 1.0),
+            front,
+            {"nodes": 9, "tolerance": 1.0},
             "nodes: nodes is 9 and tolerance is 1.0; give one of them",
         ),
+        (front, {"tolerance": 0}, "tolerance: the tolerance is 0; give a number above 0"),
+        ([[1, 2], [np.nan, 4]], {"nodes": 9}, "finite: sample (1, 0) is nan; fill it in or cut it off"),
         (
-            (front, None, ((0, 0), (1, 1)), None, 0, False, 0),
-            "tolerance: the tolerance is 0; give a number above 0",
-        ),
-        (([[1, 2], [np.nan, 4]], 9), "finite: sample (1, 0) is nan; fill it in or cut it off"),
-        (
-            ([1, 2], 9),
-            "samples: samples have shape (2,) and dtype int64; "
-            "give two rows and columns of real numbers at least",
+            [1, 2],
+            {"nodes": 9},
+            "samples: samples have shape (2,) and dtype int64; give real numbers in at least 2 rows "
+            "and 2 columns",
         ),
     ],
 )
-def test_what_cannot_be_asked(arguments, message):
-    *rest, tolerance = arguments if len(arguments) == 7 else (*arguments, None)
+def test_what_cannot_be_asked(function, options, message):
     with pytest.raises(MeshError) as caught:
-        approximate(*rest, tolerance=tolerance)
+        approximate(function, **options)
     assert str(caught.value) == message
 
 

@@ -220,7 +220,8 @@ def test_an_unknown_backend_is_named():
     assert result.returncode == 1
     assert result.stderr.splitlines()[-1] == (
         "meshlib.errors.UnknownNameError: unknown: MESHLIB_BACKEND 'nuba' is not known; "
-        "did you mean 'numba'? (known: 'auto', 'numba', 'python')"
+        "did you mean 'numba'? "
+        "(known: 'auto', 'numba', 'python')"
     )
 
 

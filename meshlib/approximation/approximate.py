@@ -1,6 +1,6 @@
 """The mesh for a known function: nodes in, the best piecewise linear function out."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -166,11 +166,11 @@ def approximate(
     seed = checks.whole(seed, 0, "seed")
     angle = checks.number(min_angle or 0, "min_angle", 0, LARGEST_MIN_ANGLE + 1e-9, "degrees from 0 to 30")
     function = function if callable(function) else Samples(function, *_box(domain))
-    norm = NORMS[norms.checked(norm, tuple(NORMS))]
-    task = Task(function, domain, float(np.radians(angle)), norm, seed, progress)
+    kind = NORMS[norms.checked(norm, (2, "max"))]
+    task = Task(function, domain, float(np.radians(angle)), kind, seed, progress)
     if (nodes is None) == (tolerance is None):
         raise InvalidInputError("nodes", f"nodes is {nodes} and tolerance is {tolerance}; give one of them")
-    if tolerance is None:
+    if nodes is not None:
         return task.with_nodes(checks.whole(nodes, 3, "nodes"))
     return task.within(_tolerance(tolerance))
 
@@ -185,7 +185,7 @@ class Task:
     norm: str
     seed: int
     progress: bool
-    settings: Settings = Settings()
+    settings: Settings = field(default_factory=Settings)
 
     def with_nodes(self, nodes):
         """The mesh with a given number of nodes."""

@@ -1,6 +1,6 @@
 """How far u_h is from a known u: integrals of a power of the error over elements and along edges."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
@@ -138,7 +138,7 @@ class Misfit:
     function: Counted
     spacing: float
     sharpest: float = 0.0
-    settings: Quadrature = Quadrature()
+    settings: Quadrature = field(default_factory=Quadrature)
     squarings: int = 1
     unit: float = 1.0
 

@@ -33,7 +33,7 @@ class Samples:
             raise InvalidInputError(
                 "samples",
                 f"samples have shape {self.samples.shape} and dtype "
-                f"{self.samples.dtype}; give two rows and columns of real numbers at least",
+                f"{self.samples.dtype}; give real numbers in at least 2 rows and 2 columns",
             )
         self.samples = self.samples.astype(float)
         bad = np.argwhere(~np.isfinite(self.samples))

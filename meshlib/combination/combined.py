@@ -144,9 +144,9 @@ def combined(
     period = run.sweep(checks.whole(max_sweeps, 1, "max_sweeps"))
     green = mesh.green[halved(run.nodes, run.elements, mesh.green) & run.untouched(mesh)]
     result = Mesh._trusted(run.nodes, run.elements, green)
-    costs = (of ** (1 / objective.norm) for of in (run.indicator, objective.of(result)))
+    before, after = (of ** (1 / objective.norm) for of in (run.indicator, objective.of(result)))
     history = np.array(run.steps, dtype=STEP)
-    return Combination(result, run.values, *costs, run.count, period, run.indicator, history)
+    return Combination(result, run.values, before, after, run.count, period, run.indicator, history)
 
 
 def _objective(mesh, function, criterion, norm, rim, min_angle):

@@ -112,6 +112,7 @@ class Patch:
 
     @cached_property
     def mesh(self):
+        """The patch as a mesh of its own nodes."""
         return Mesh._trusted(self.nodes, self.elements)
 
     @cached_property

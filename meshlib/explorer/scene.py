@@ -145,7 +145,8 @@ class Stage:
 
 def numbers(stage: Stage) -> dict[str, float]:
     """The numbers of the quality table, by label."""
-    found = dict(zip(("Nodes", "Edges", "Elements", "Swaps"), (*stage.mesh.counts, stage.swaps), strict=True))
+    counts = zip(("Nodes", "Edges", "Elements", "Swaps"), (*stage.mesh.counts, stage.swaps), strict=True)
+    found: dict[str, float] = dict(counts)
     found |= {"L2 error": stage.l2_error, "Largest error": stage.largest_error}
     for name, title in MEASURES.items():
         for kind, values in (("mean", stage.quality.mean), ("max", stage.quality.max)):

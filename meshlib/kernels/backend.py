@@ -110,22 +110,27 @@ class Compiled(Plain):
         return self._names[module]
 
     def readable(self, array: NDArray[Any]) -> Any:
+        """The array itself, which kernels must not change."""
         found = array.ravel().view()
         found.flags.writeable = False  # so that kernels are compiled for one kind of array
         return found
 
     def flat(self, array: NDArray[Any]) -> Any:
+        """A private, flat copy that kernels change."""
         return array.ravel().copy()
 
     def writable(self, array: NDArray[Any]) -> Any:
+        """The array itself, which kernels change."""
         return array
 
     def inner(self, function: Callable[..., Any]) -> Callable[..., Any]:
+        """A user's function, compiled unless it is."""
         if hasattr(function, "py_func"):  # it is compiled already
             return function
         return self._numba.njit(error_model="numpy")(function)
 
     def pointer(self, function: Callable[..., Any]) -> Any:
+        """A function of four points as a C function, or None if numba cannot compile it."""
         number = self._numba.float64
         point = self._numba.types.UniTuple(number, 3)
         try:

@@ -36,7 +36,7 @@ def edge_table(element: Ints, starts: Ints, half: Ints, other: Ints, slot: Ints,
 
 @kernel
 def by_smaller_node(element: Ints, starts: Ints, half: Ints, other: Ints) -> None:
-    """List half-edges by their smaller node, with the larger one; ``starts`` receives their ends."""
+    """List half-edges by smaller node, with the larger one; ``starts`` receives the end of each list."""
     for h in range(len(element)):
         starts[min(element[after(h)], element[before(h)]) + 1] += 1
     for n in range(1, len(starts)):

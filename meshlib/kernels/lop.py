@@ -123,7 +123,7 @@ def inspect(e: int, given: UserCost | None, rules: Rules, state: State, log: Log
 
 @inlined
 def tried(e, quad, elements, faces, given, rules, state, log, row):
-    """Swap the edge of an admissible quadrilateral that is not locally optimal; TRIED, SWAPPED or INVALID."""
+    """Swap the edge of an admissible quadrilateral if it is not optimal; TRIED, SWAPPED or INVALID."""
     if rules.code >= SMALLEST_ANGLE:
         old, new, fresh = costs_of_elements(given, rules, state.point, quad, elements)
     else:

@@ -1,12 +1,11 @@
 """Marks of the functions that numba compiles.  A marked function stays a plain Python function."""
 
 from collections.abc import Callable
-from types import FunctionType
 from typing import Any, TypeVar
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-INLINING: dict[FunctionType, str] = {}  # every kernel, and whether numba copies it into its callers
+INLINING: dict[Callable[..., Any], str] = {}  # every kernel, and whether numba copies it into its callers
 
 
 def kernel(function: F) -> F:

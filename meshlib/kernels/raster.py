@@ -124,8 +124,8 @@ def fill_rows(grid, shape, rows, plane, room, empty):
     for j in range(rows[0], rows[1] + 1):
         p = j - a[1]
         first, second, third = s1 * p, s2 * (p - u[1]), s3 * p
-        low = max(max(left, first + l1), max(second + l2, third + l3))
-        high = min(min(right, first + h1), min(second + h2, third + h3))
+        low = max(left, first + l1, second + l2, third + l3)
+        high = min(right, first + h1, second + h2, third + h3)
         i, end = points_between(low, high, grid.nx)
         value = plane[2] + plane[1] * p + plane[0] * (i - a[0])
         painted(grid.values, (j * grid.nx + i, j * grid.nx + end), value, plane[0], empty)

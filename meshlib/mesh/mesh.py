@@ -145,7 +145,7 @@ class Mesh(Derived):
         Traceback (most recent call last):
             ...
         meshlib.errors.InvalidMeshError: orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse its nodes
-        """  # noqa: E501
+        """
         for clause in validation.CLAUSES:
             validation.require(clause, self)
         object.__setattr__(self, "_valid", True)

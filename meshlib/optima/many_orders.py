@@ -91,17 +91,15 @@ def local_optima(
     norm: Norm = "L2",
     orders: int = 100,
     seed: int = 0,
-    min_angle: float | None = None,
-    min_area: float | None = None,
-    min_gain: float | None = None,
     workers: int | None = None,
     progress: bool = False,
+    **limits: float | None,
 ) -> LocalOptima:
     """Run the local optimisation procedure with many random edge orders (section 6.3).
 
     Parameters
     ----------
-    mesh, values, criterion, norm, min_angle, min_area, min_gain
+    mesh, values, criterion, norm
         As for `meshlib.swapped`.
     orders : int
         Number of orders.
@@ -112,6 +110,8 @@ def local_optima(
         what ``joblib.parallel_config`` says, else one.  The result does not depend on it.
     progress : bool
         Whether to show a progress bar.
+    **limits
+        ``min_angle``, ``min_area`` and ``min_gain``, as for `meshlib.swapped`.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def local_optima(
     >>> print(f"{len(found)} optima cost {found.costs.min():.1f} to {found.costs.max():.1f}")
     38 optima cost 16.8 to 22.1
     """
-    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
+    procedure = prepared(mesh, values, criterion, norm, **limits)
     orders, seed = checks.whole(orders, 1, "orders"), checks.whole(seed, 0, "seed")
     workers = None if workers is None else checks.workers(workers)
     size = min(ORDERS_AT_ONCE, -(-orders // PARTS))
@@ -199,7 +199,7 @@ def _in_parallel(function, parts, workers):
     jobs = (joblib.delayed(function)(*part) for part in parts)
     results = joblib.Parallel(n_jobs=workers, return_as="generator")(jobs)
     try:
-        for result in results:  # noqa: UP028 - "yield from" would close them before the warning is silenced
+        for result in results:
             yield result
     finally:
         with warnings.catch_warnings():  # that some work was in vain

@@ -110,7 +110,7 @@ def optimal(
     """
     mesh, criterion = checks.a_mesh(mesh), criteria.get(criterion)
     values = checks.nodal_values(mesh, values)
-    norm = norms.checked(norm, (1, 2))
+    power = 1 if norms.checked(norm, (1, 2)) == 1 else 2
     seconds = checks.number(seconds, "seconds", 0, np.inf, "a finite number of seconds of at least 0")
     if criterion.on == "node":
         raise UnknownNameError(
@@ -119,11 +119,11 @@ def optimal(
     if mesh.n_nodes > MOST_NODES:
         raise InvalidInputError("range", f"the mesh has {mesh.n_nodes} nodes; give at most {MOST_NODES}")
     candidates = Candidates(mesh)
-    costs, matrix, right = _model(candidates, values, criterion, norm)
+    costs, matrix, right = _model(candidates, values, criterion, power)
     chosen, proved = _solved(costs, matrix, right, seconds)
     best = Mesh(mesh.nodes, candidates.triangles[chosen[: len(candidates)] > 0.5]).validate()
-    before, cost = (float(np.linalg.norm(criterion.costs(m, values), norm)) for m in (mesh, best))
-    bound = min(cost, _bound(costs, matrix, right, seconds) ** (1 / norm))
+    before, cost = (float(np.linalg.norm(criterion.costs(m, values), power)) for m in (mesh, best))
+    bound = min(cost, _bound(costs, matrix, right, seconds) ** (1 / power))
     return Optimal(best, values, before, cost, bound, proved)
 
 

@@ -72,7 +72,7 @@ def draw_edges(ax: "Axes", mesh: Mesh, edges: ArrayLike | bool, **options: Any) 
     from matplotlib.collections import LineCollection
 
     ends = mesh.edges[chosen(edges, mesh.n_edges, "edge")]
-    lines = LineCollection(mesh.nodes[ends], capstyle="round", **options)
+    lines = LineCollection(list(mesh.nodes[ends]), capstyle="round", **options)
     ax.add_collection(lines)
     return lines
 
@@ -122,7 +122,7 @@ def shade_elements(
     from matplotlib.collections import PolyCollection
 
     corners = mesh.corners[chosen(elements, mesh.n_elements, "element")]
-    triangles = PolyCollection(corners, facecolors=colour, edgecolors="none", alpha=opacity, zorder=1)
+    triangles = PolyCollection(list(corners), facecolors=colour, edgecolors="none", alpha=opacity, zorder=1)
     ax.add_collection(triangles)
     return triangles
 

@@ -40,6 +40,7 @@ class TestFunction:
     note: str = ""
 
     def __call__(self, x, y):
+        """Values of u at the points."""
         return self.function(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
 
     def __repr__(self):

@@ -138,7 +138,7 @@ def edges_by_element(elements):
 
 
 def _stored_refined():
-    nodes, edges, elements = _stored()
+    nodes, _, elements = _stored()
     return split_in_four(nodes, Mesh(nodes, elements).edges, elements)
 
 

@@ -60,16 +60,14 @@ def annealed(
     seed: int = 0,
     levels: int = 200,
     tries: int = 20,
-    min_angle: float | None = None,
-    min_area: float | None = None,
-    min_gain: float | None = None,
     progress: bool = False,
+    **limits: float | None,
 ) -> Annealing:
     """The mesh of low cost that simulated annealing over swaps finds.
 
     Parameters
     ----------
-    mesh, values, criterion, min_angle, min_area, min_gain
+    mesh, values, criterion
         As for `meshlib.swapped`.
     norm : {"L1", "L2"}
         Norm of the cost vector to lower; 1 and 2 are other names.
@@ -81,6 +79,8 @@ def annealed(
         Number of times that each edge is tried at each temperature, on average.
     progress : bool
         Whether to show a progress bar, which counts temperatures.
+    **limits
+        ``min_angle``, ``min_area`` and ``min_gain``, as for `meshlib.swapped`.
 
     Returns
     -------
@@ -120,7 +120,7 @@ def annealed(
     norm = norms.checked(norm, (1, 2))
     seed, levels = checks.whole(seed, 0, "seed"), checks.whole(levels, 1, "levels")
     tries = checks.whole(tries, 1, "tries")
-    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
+    procedure = prepared(mesh, values, criterion, norm, **limits)
     local = _settled(procedure, procedure.mesh)
     walk = walk_from(replace(procedure, mesh=local))
     temperatures = _Cooling().temperatures(walk.differences(), levels)

@@ -216,9 +216,9 @@ def prepared(
     values: Values,
     criterion: str | Criterion,
     norm: Norm,
-    min_angle: float | None,
-    min_area: float | None,
-    min_gain: float | None,
+    min_angle: float | None = None,
+    min_area: float | None = None,
+    min_gain: float | None = None,
 ) -> Procedure:
     """The procedure with these arguments, checked as for `swapped`, for any edge order."""
     mesh = checks.a_mesh(mesh)

@@ -133,7 +133,7 @@ def conditioned() -> Figure:
     figure.set_size_inches(plotting.WIDTH, TALL + 0.6)
     colours = plotting.PALETTE.values()
     for family, marker, colour in zip(conditioning.families(), MARKERS, colours, strict=False):
-        _family(axes, family, marker, colour)
+        _family(list(axes), family, marker, colour)
     for ax, title in zip(axes, ("stiffness matrix", "scaled by its diagonal"), strict=True):
         ax.set(title=title, xlabel="smallest angle, degrees")
         ax.spines[["top", "right"]].set_visible(False)

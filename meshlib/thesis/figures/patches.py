@@ -12,7 +12,7 @@ SEED = 3
 NEAR = 1e-9  # distance up to which a node lies in the middle of an edge
 TRIANGLE = np.array([[0.0, 0.3], [4.2, 0.0], [1.6, 3.4]])
 BULGES = [[0.0, -0.25], [0.3, 0.2], [-0.3, 0.25]]  # movements of the midpoints of its three sides
-SQUARE = [[0, 0], [0.45, 0], [1, 0], [1, 0.55], [1, 1], [0.55, 1], [0, 1], [0, 0.5], [0.74, 0.3]]
+SQUARE = np.array([[0, 0], [0.45, 0], [1, 0], [1, 0.55], [1, 1], [0.55, 1], [0, 1], [0, 0.5], [0.74, 0.3]])
 
 
 def hexagon(rings: int, jitter: float = 0.0) -> ml.Mesh:

@@ -110,7 +110,7 @@ def costs_of_parts(
     else:
         corners = from_smallest(every.elements)
     points = np.column_stack([every.nodes, np.tile(values, count)])
-    costs = criterion.cost(*points[corners.T])
+    costs = np.asarray(criterion.cost(*points[corners.T]), dtype=float)
     return np.bincount(corners[:, 0] // start.n_nodes, costs**norm, count) ** (1 / norm)
 
 
