@@ -75,7 +75,8 @@ def test_the_interpolant_of_a_record_has_its_values_at_its_nodes(name):
 @pytest.mark.parametrize("operation", OPERATIONS, ids=lambda f: f.__name__)
 def test_all_but_mesh_data_and_criterion_is_given_by_name(operation):
     kinds = {name: p.kind for name, p in inspect.signature(operation).parameters.items()}
-    positional = {name for name, kind in kinds.items() if kind is not inspect.Parameter.KEYWORD_ONLY}
+    named = (inspect.Parameter.KEYWORD_ONLY, inspect.Parameter.VAR_KEYWORD)
+    positional = {name for name, kind in kinds.items() if kind not in named}
     assert positional <= POSITIONAL
 
 

@@ -73,7 +73,7 @@ class Plain:
         """What the page shows for a reference."""
         return self._resolved(role, target)[0]
 
-    @lru_cache
+    @lru_cache  # noqa: B019, lives as long as the page is read
     def _resolved(self, role, target):
         """Words of a reference, and the page that it leads to: none if it is this page."""
         domain, kind = ROLES[role]

@@ -144,7 +144,7 @@ class Mesh(Derived):
         >>> Mesh([[0, 0], [1, 0], [0, 1]], [[0, 2, 1]]).validate()
         Traceback (most recent call last):
             ...
-        meshlib.errors.InvalidMeshError: orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse its nodes
+        meshlib.errors.InvalidMeshError: orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse ...
         """
         for clause in validation.CLAUSES:
             validation.require(clause, self)

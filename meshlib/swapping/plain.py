@@ -57,6 +57,7 @@ class State:
 
     @property
     def elements(self):
+        """Node numbers of the elements, one row for each."""
         return _elements(self.apex)
 
     def inspect(self, e, sweep):
