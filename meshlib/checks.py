@@ -7,13 +7,13 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ._typing import AnyMesh, ArrayLike, BoolArray, FloatArray, Function, IntArray, NDArray, Values
+from ._typing import AnyMesh, ArrayLike, FloatArray, Function, IntArray, NDArray, Values
 from .errors import CostError, InvalidInputError, InvalidMeshError, UnknownNameError
 
 MINIMUM_NODES = 3  # number of nodes of a mesh, or of a closed boundary
 LARGEST_VALUE = 1e120  # nodal value; squares of gradients, and of their inverses, are finite up to here
 
-T = TypeVar("T")
+GivenT = TypeVar("GivenT")
 
 
 def node_array(nodes: ArrayLike) -> FloatArray:
@@ -66,56 +66,6 @@ def node_pairs(pairs: ArrayLike) -> NDArray[np.int64]:
     """Pairs of node numbers as an (m, 2) int64 array, the smaller first, or a MeshError."""
     found = _numbers(pairs, "pairs", 2, "an (m, 2) array of node numbers")
     return np.sort(found, axis=1).astype(np.int64)
-
-
-def each_edge_once(numbers: IntArray, edges: IntArray) -> None:
-    """Raise a MeshError that names an edge given twice or not at all.
-
-    ``numbers`` are the rows of ``edges``, (E, 2), that have been given.
-    """
-    missing = np.setdiff1d(np.arange(len(edges)), numbers)
-    order = np.argsort(numbers, kind="stable")
-    again = np.flatnonzero(np.diff(numbers[order]) == 0)
-    if again.size:
-        (i, j), first, second = edges[numbers[order[again[0]]]], order[again[0]], order[again[0] + 1]
-        raise InvalidMeshError(
-            "edge",
-            f"nodes {i} and {j} are given twice, in rows {first} and {second}; keep one of them",
-            edges[numbers[order[again]]].ravel(),
-            again.size,
-        )
-    if missing.size:
-        i, j = edges[missing[0]]
-        raise InvalidMeshError(
-            "edge",
-            f"nodes {i} and {j} are joined by an edge that is not given; add it",
-            edges[missing].ravel(),
-            missing.size,
-        )
-
-
-def marked(array: ArrayLike, what: str) -> NDArray[Any]:
-    """Three columns, the third a boundary marker, or a MeshError."""
-    found = np.asarray(array)
-    if found.ndim != 2 or found.shape[1] != 3:
-        raise InvalidInputError(
-            "shape", f"{what} have shape {found.shape}; give three columns, the third the boundary marker"
-        )
-    return found
-
-
-def markers(what: str, given: NDArray[Any], derived: BoolArray) -> None:
-    """Raise a MeshError that names a marker which disagrees with the mesh."""
-    wrong = np.flatnonzero((given != 0) != derived)
-    if wrong.size:
-        place = "on the boundary" if derived[wrong[0]] else "inside"
-        raise InvalidMeshError(
-            "marker",
-            f"{what} {wrong[0]} is marked {given[wrong[0]]:g} but lies {place}; "
-            "mark 1 on the boundary and 0 inside",
-            wrong,
-            wrong.size,
-        )
 
 
 def distinct_nodes(nodes: FloatArray) -> None:
@@ -208,7 +158,7 @@ def cost_vector(costs: ArrayLike, size: int, what: str) -> FloatArray:
     return costs
 
 
-def a_mesh(mesh: T) -> T:
+def a_mesh(mesh: GivenT) -> GivenT:
     """The mesh, validated unless it has been before, or a MeshError if it is something else."""
     if hasattr(mesh, "_checked"):
         return mesh._checked()
@@ -244,7 +194,7 @@ def workers(value: int) -> int:
     return int(value)
 
 
-def choice(value: T, options: Collection[T], what: str) -> T:
+def choice(value: GivenT, options: Collection[GivenT], what: str) -> GivenT:
     """``value`` if it is one of the options, else a MeshError that proposes the nearest one."""
     if isinstance(value, (str, Real)) and value in options:
         return value

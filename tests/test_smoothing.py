@@ -164,9 +164,7 @@ def test_linear_data_give_laplacian_smoothing():
     meshes(most=14, scales=(1.0,)), st.booleans(), st.sampled_from((1, 3, 30)), st.sampled_from((0.4, 1, 3))
 )
 def test_valid_whatever_the_data(mesh, sliding, sweeps, power):
-    def u(x, y):
-        return np.tanh(5 * (x - 2)) + np.sin(7 * y)
-
+    u = lambda x, y: np.tanh(5 * (x - 2)) + np.sin(7 * y)  # noqa: E731
     moved = smoothed(
         mesh, DataSprings(u, first=1, second=100, power=power), max_sweeps=sweeps, sliding=sliding
     ).mesh.validate()

@@ -20,7 +20,6 @@ from .on_elements import gradients, squared_errors
 DEFAULT_DEGREE = 8  # polynomial degree up to which quadrature is exact
 ROUNDING = 8 * np.finfo(float).eps  # relative error of the place where a row of a grid cuts a side
 STEPS_OF_AN_ELEMENT, POINTS_IN_A_STEP = 5, 8  # work of filling a grid, in steps of plain Python
-FILLED = 1e-9  # part of its bounding box that a rectangular domain may seem to lack, by rounding
 
 
 class Interpolant:
@@ -197,9 +196,10 @@ class Interpolant:
             )
         return float(np.sqrt(square))
 
-    def _by_grid(self, function: Function, points: int) -> float:
+    def _by_grid(self, function: Function, points: int, rounding: float = 1e-9) -> float:
+        """Integral of (u - u_h)^2 by the trapezium rule, if the domain fills its box but for rounding."""
         x, y, error = self.error_on_grid(function, checks.whole(points, 2, "points"))
-        if not np.isclose(np.ptp(x) * np.ptp(y), self.mesh.domain_area, rtol=FILLED, atol=0):
+        if not np.isclose(np.ptp(x) * np.ptp(y), self.mesh.domain_area, rtol=rounding, atol=0):
             message = 'the trapezium rule needs a rectangular domain; use rule="exact"'
             raise InvalidInputError("domain", message)
         return float(np.trapezoid(np.trapezoid(error**2, x, axis=1), y))

@@ -50,7 +50,7 @@ def for_work(steps: float) -> Plain:
     >>> kernels.lop.after(2)
     0
     """
-    global _rent
+    global _rent  # noqa: PLW0603 - the one state of a process that the rule needs
     wanted = choice(os.environ.get("MESHLIB_BACKEND", "auto"), BACKENDS, "MESHLIB_BACKEND")
     _rent += steps
     is_bought = _compiled.cache_info().currsize > 0

@@ -9,14 +9,14 @@ import numpy as np
 from .._typing import BoolArray, FloatArray, IntArray
 from . import topology, validation
 
-T = TypeVar("T")
+ArrayT = TypeVar("ArrayT")  # an array, or a tuple of arrays
 
 
-def _derived(method: Callable[[Any], T]) -> cached_property[T]:
+def _derived(method: Callable[[Any], ArrayT]) -> cached_property[ArrayT]:
     """A property computed once, whose arrays are read-only."""
 
     @wraps(method)
-    def computed(self: Any) -> T:
+    def computed(self: Any) -> ArrayT:
         found = method(self)
         arrays: tuple[Any, ...] = found if isinstance(found, tuple) else (found,)
         for array in arrays:

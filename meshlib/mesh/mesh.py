@@ -144,8 +144,8 @@ class Mesh(Derived):
         >>> Mesh([[0, 0], [1, 0], [0, 1]], [[0, 2, 1]]).validate()
         Traceback (most recent call last):
             ...
-        meshlib.errors.InvalidMeshError: orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse ...
-        """
+        meshlib.errors.InvalidMeshError: orientation: element 0 with nodes (0, 2, 1) is clockwise; reverse its nodes
+        """  # noqa: E501
         for clause in validation.CLAUSES:
             validation.require(clause, self)
         object.__setattr__(self, "_valid", True)

@@ -199,7 +199,7 @@ def _in_parallel(function, parts, workers):
     jobs = (joblib.delayed(function)(*part) for part in parts)
     results = joblib.Parallel(n_jobs=workers, return_as="generator")(jobs)
     try:
-        for result in results:  # noqa: UP028, "yield from" would close them with the warning
+        for result in results:  # noqa: UP028 - "yield from" would close them before the warning is silenced
             yield result
     finally:
         with warnings.catch_warnings():  # that some work was in vain

@@ -10,7 +10,6 @@ from ..mesh.mesh import Mesh
 MARKS = ("element", "edge", "node", "density")
 TIES = ("first", "all")
 TIED = 1e-9  # difference of costs that count as equal, as a fraction of the largest
-WHOLE = 1e-9  # rounding error of a number of elements: 0.1 * 30 is 3, and not a little more
 
 
 def marked(
@@ -74,7 +73,7 @@ def marked(
     criterion, share = criteria.get(criterion), checks.fraction(fraction)
     checks.choice(mark, MARKS, "mark")
     checks.choice(ties, TIES, "ties")
-    target = int(np.ceil(share * mesh.n_elements - WHOLE))
+    target = _rounded_up(share * mesh.n_elements)
     if not target:
         return np.empty(0, dtype=np.int64)
     costs = criterion.costs(mesh, at_nodes)
@@ -86,6 +85,11 @@ def marked(
     if mark == "density":
         costs = costs / mesh.areas * _parts(criterion.on)
     return _worst(costs, target, ties, ranked)
+
+
+def _rounded_up(number: float, rounding: float = 1e-9) -> int:
+    """The least whole number that is not below, but for rounding: 0.1 * 30 gives 3."""
+    return int(np.ceil(number - rounding))
 
 
 def averaged(mesh: Mesh, costs: FloatArray, source: str, target: str) -> FloatArray:

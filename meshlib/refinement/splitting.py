@@ -9,8 +9,6 @@ from ..mesh.mesh import Mesh
 from ..mesh.topology import HEADS, TAILS, unique
 from .redgreen import Split, red_green
 
-LONGEST = 1e-12  # difference of squared lengths that count as equal, as a fraction of the longest
-
 
 def centroid(mesh: Mesh, marked: IntArray) -> Split:
     r"""Midpoint node insertion (section 3.2.5).
@@ -66,13 +64,16 @@ SPLITS: dict[str, Callable[[Mesh, IntArray], Split]] = {
 }
 
 
-def _longest(mesh: Mesh) -> IntArray:
-    """Column of the node opposite the longest edge of each element; of equal edges, the first."""
+def _longest(mesh: Mesh, rounding: float = 1e-12) -> IntArray:
+    """Column of the node opposite the longest edge of each element; of equal edges, the least number.
+
+    Squared lengths are equal if they differ by no more than ``rounding`` times the longest.
+    """
     p, q = mesh.edges.T
     dx, dy = (v.take(q) - v.take(p) for v in np.ascontiguousarray(mesh.nodes.T))
     squared = dx**2 + dy**2
     first, second, third = (squared[column] for column in mesh.element_edges.T)
-    least = np.maximum(np.maximum(first, second), third) * (1 - LONGEST)
+    least = np.maximum(np.maximum(first, second), third) * (1 - rounding)
     ranks = [
         np.where(long >= least, column, mesh.n_edges)
         for long, column in zip((first, second, third), mesh.element_edges.T, strict=True)

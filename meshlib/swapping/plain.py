@@ -57,7 +57,7 @@ class State:
 
     @property
     def elements(self):
-        """Node numbers of the elements, one row for each."""
+        """The elements as they are."""
         return _elements(self.apex)
 
     def inspect(self, e, sweep):
