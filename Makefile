@@ -38,12 +38,12 @@ lint: $(READY) ## Style, layout, spelling, types; the explorer's scripts where t
 
 # First what plain Python alone can break: test_backends compares both backends by
 # itself, test_properties takes long, a browser runs no Python. Then everything, with a
-# list of what was skipped; loadfile keeps a notebook on one kernel.
+# list of what was skipped and of lines that no test reached; loadfile keeps a notebook on one kernel.
 test: $(READY) ## Unit tests (both backends), doctests, the built book, notebooks against their stored output
 	MESHLIB_BACKEND=python $(BIN)/python -m pytest tests -q -n $(WORKERS) --dist loadfile \
 	    --ignore tests/test_backends.py --ignore tests/test_properties.py --ignore tests/browser
 	$(BIN)/python -m pytest tests meshlib notebooks --doctest-modules -rs \
-	    --nbval --nbval-current-env -n $(WORKERS) --dist loadfile
+	    --nbval --nbval-current-env -n $(WORKERS) --dist loadfile --cov --cov-report=term
 
 # The core, and the extras that the library itself imports, in the oldest versions; the tools that
 # test are new. What needs the book, a browser or a cluster is left out.
