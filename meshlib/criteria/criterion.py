@@ -16,6 +16,11 @@ from ..mesh.topology import from_smallest, quadrilaterals
 PLACES = ("edge", "element", "node")  # what may have costs
 
 
+def no_unit(extent: float, height: float) -> float:
+    """Size of a typical cost that is not known: only relative differences count."""
+    return 0.0
+
+
 @dataclass(frozen=True)
 class Criterion:
     """A cost function for the edges, elements or nodes of a mesh.
@@ -66,7 +71,7 @@ class Criterion:
     on: str
     cost: Callable[..., ArrayLike]
     title: str = ""
-    unit: Callable[[float, float], float] = lambda extent, height: 0.0
+    unit: Callable[[float, float], float] = no_unit
     code: int = -1
     geometric: bool = False
     pointwise: Callable[[], Callable[..., float]] | None = None

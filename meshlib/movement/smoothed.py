@@ -30,7 +30,7 @@ class Smoothing(Record):
     values : (N,) ndarray of float64, or None
         Values at the moved nodes of the function that the springs follow; None without one.
     cost_before, cost_after : float
-        Energy of the springs on the start mesh and on the new one: half the sum of k |e|^2
+        Energy of the springs on the start mesh and on the new one: half the sum of ``k |e|^2``
         over the edges e, with the spring constants k on that mesh, scaled so that the
         largest is 1.  It falls if the constants do not depend on the mesh.
     sweeps : int

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..criteria.norms import norm_of
+from ..criteria.norms import Tolerance, norm_of
 from ..criteria.registry import Criterion
 from ..errors import not_a_cost
 from ..kernels import codes, for_work
@@ -66,7 +66,7 @@ class Procedure:
     criterion: Criterion
     norm: object
     limits: Limits
-    tolerance: tuple
+    tolerance: Tolerance
     once: bool = False
 
     def run(self, order, trace=False, schedule="sweep", watch=None):

@@ -32,8 +32,16 @@ def ring(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return np.tanh(20 * (np.hypot(x - 0.5, y - 0.5) - 0.3))
 
 
-FUNCTIONS = {"Franke": problems.functions["franke"], "SR3": problems.SR3, "DD1": problems.DD1, "ring": ring}
-DIRECTED = {"SR1": problems.SR1, "SR2": problems.SR2}  # functions that vary across a diagonal only
+FUNCTIONS: dict[str, Function] = {
+    "Franke": problems.functions["franke"],
+    "SR3": problems.SR3,
+    "DD1": problems.DD1,
+    "ring": ring,
+}
+DIRECTED: dict[str, Function] = {
+    "SR1": problems.SR1,
+    "SR2": problems.SR2,
+}  # functions that vary across a diagonal only
 
 
 # -- the limit -----------------------------------------------------------------------------------
