@@ -42,7 +42,7 @@ class _Pairs:
         return draft.mesh.boundary[draft.mesh.edge_numbers(ends)]
 
     def keep_likely(self, draft, number):
-        """Keep so many nodes, and of each the few neighbours towards which the function bends least."""
+        """Keep that number of nodes, and for each the few neighbours towards which u bends least."""
         bend = draft.bends_of(np.stack([self.i, self.j], axis=1))
         bent = _without_noise(draft, bend**2 * draft.patch_sums(draft.mesh.areas)[self.i])
         order, rank = self._ranked(bent)
@@ -80,7 +80,7 @@ class _Pairs:
         return _without_noise(draft, after - draft.patch_sums(draft.errors)[self.i] + self._edge_costs(draft))
 
     def _edge_costs(self, draft):
-        """The same along the boundary, for nodes on a side: one edge in place of two."""
+        """Merges along the boundary, for nodes on a side: one edge in place of two."""
         cost = np.zeros(len(self.i))
         bound = np.flatnonzero(draft.side[self.i] != INTERIOR)
         i, j = self.i[bound], self.j[bound]

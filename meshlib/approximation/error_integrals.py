@@ -164,7 +164,7 @@ class Misfit:
         return self._integrals(corners, values, 1, self._powers, is_new)[:, 0]
 
     def moments(self, corners, values, is_new=True):
-        """The same, and half its slopes in the nodal values, (m, 3): of squares the integrals of e phi."""
+        """Integrals and half their slopes in the nodal values, (m, 3): for squares the integrals of e phi."""
         found = self._integrals(corners, values, 4, self._powers_and_moments, is_new)
         return found[:, 0], found[:, 1:]
 
@@ -238,7 +238,7 @@ class Misfit:
         return self.moments_on_edges(ends, values)[0]
 
     def moments_on_edges(self, ends, values):
-        """The same, and half its slopes in the two nodal values, (m, 2)."""
+        """Integrals and half their slopes in the two nodal values, (m, 2)."""
         at, weights = _gauss(self.settings.boundary_points)
         share = np.stack([1 - at, 1 + at]) / 2
         x, y = ends[..., 0] @ share, ends[..., 1] @ share
@@ -283,7 +283,7 @@ def squared_sides(corners):
 
 
 def _at_once(rows, points, batch):
-    """The rows, each with so many points, in parts."""
+    """The rows, each with the given number of points, in parts."""
     return np.array_split(rows, min(len(rows), -(-len(rows) * points // batch)))
 
 

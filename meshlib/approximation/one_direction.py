@@ -18,7 +18,7 @@ from ..support.random_numbers import Draws
 
 
 def in_turn(function, low, high, nodes, power, settings):
-    """A mesh of so many nodes for a function of one direction on a rectangle, or None for another.
+    """A mesh for a function of one direction on a rectangle, or None for another function.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def _total_density(function, chains, power, settings):
 
 
 def _equidistributed(chains, total, number, n_phases):
-    """So many values of s with the same integral of the density between them, none at that of a corner."""
+    """Values of s with equal integrals of the density between them, none at that of a corner."""
     s, upto = total
     corners = np.interp(np.concatenate([c @ chains.direction for c in chains.corners]), s, upto)
     steps = upto[-1] / number

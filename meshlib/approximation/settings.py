@@ -76,7 +76,7 @@ class Moves:
     """Nodes moved by Newton's method."""
 
     probe: float = 0.08  # distance of points for differences of the function, in extents of the patch
-    longest_step: float = 0.35  # of a node at once, in extents of its patch
+    longest_step: float = 0.35  # longest move of a node at once, in extents of its patch
     step_shares: tuple[float, ...] = (1.6, 0.7)  # fractions of Newton's step that are tried in turn
     worthwhile: float = 1e-4  # smallest gain foreseen, as a fraction of the error of the patch
     smallest_gain: float = 1e-10  # smallest gain, as a fraction of the error of the patch; less is rounding
@@ -144,7 +144,7 @@ class NodeCount:
     fastest: float = 3.0  # largest order of convergence that is believed
     most_growth: float = 8.0  # factor by which the number grows at once, at most
     most_trials: int = 30  # meshes before the search ends
-    largest_ratio: float = 1e9  # of the error to the tolerance, or the reverse, that is believed
+    largest_ratio: float = 1e9  # largest believable ratio of error and tolerance, either way
     fewer: tuple[float, ...] = (1.015, 1.03, 1.045, 1.06)  # divisors of the number found, tried at the end
 
 

@@ -9,7 +9,7 @@ from ..mesh.mesh import Mesh
 from ..support.random_numbers import Draws
 from .collapse import collapsed
 
-LARGEST_STRETCH = 1e3  # of a rectangle
+LARGEST_STRETCH = 1e3  # largest ratio of the sides of a rectangle
 
 
 def start(domain, nodes, seed, settings):
@@ -27,7 +27,7 @@ def start(domain, nodes, seed, settings):
 
 
 def regular(domain, nodes):
-    """The lattice of nearly square cells on a rectangle that has nearly so many nodes and no more."""
+    """The lattice of nearly square cells on a rectangle with at most ``nodes`` nodes, and nearly as many."""
     low, high = corners(domain)
     width, height = high - low
     rows = max(2, min(int(np.sqrt(nodes * height / width)), nodes // 2))

@@ -156,7 +156,7 @@ class Draft:
         return found
 
     def worst(self, most, share):
-        """The elements of largest error, so many at most, down to a share of the largest."""
+        """The elements of largest error, at most a given number, down to a share of the largest."""
         error = coarse(self.errors + self.edge_errors())
         order = np.argsort(-error, kind="stable")[:most]
         return order[error[order] >= share * error[order[0]]]

@@ -14,7 +14,7 @@ from ..mesh.mesh import Mesh
 from .scene import Scene
 
 CHANGE = np.dtype([("stage", "u4"), ("p", "u4"), ("q", "u4"), ("r", "u4"), ("cost", "f8")])
-LOCAL_COSTS = ("old", "new")  # of a tried swap, as fields of a trace
+LOCAL_COSTS = ("old", "new")  # fields of a trace: local costs before and after a tried swap
 
 
 def has_formula(criterion: Criterion) -> bool:

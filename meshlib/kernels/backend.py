@@ -97,7 +97,7 @@ class Compiled(Plain):
             return self._done[value]
 
     def _twin(self, kernel: FunctionType) -> Any:
-        """The same code with other global names, for numba to compile at the first call."""
+        """A copy of the kernel with other global names, for numba to compile at the first call."""
         twin = FunctionType(kernel.__code__, self._names_in(kernel.__module__), kernel.__name__)
         twin.__module__, twin.__qualname__ = kernel.__module__, kernel.__qualname__
         return self._numba.njit(**self._options, inline=INLINING[kernel])(twin)

@@ -98,7 +98,7 @@ class AlongCurve:
     def _run(self, *arguments):
         try:
             return self._procedure.run(*arguments)
-        except MeshError as error:  # of a cost that is not one, around an edge of the renumbered mesh
+        except MeshError as error:  # a bad cost, around an edge of the renumbered mesh
             raise not_a_cost(*sorted(self._curve.nodes[list(error.items)].tolist())) from None
 
     def _restored(self, trace):

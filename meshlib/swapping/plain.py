@@ -32,7 +32,7 @@ def swapped(mesh, *arguments):
 
 
 def drained(mesh, *arguments):
-    """The same with a queue: all edges once, and again those whose local cost a swap may change."""
+    """Swaps with a queue: all edges once, and again those whose local cost a swap may change."""
     state = State(mesh, *arguments)
     queue = deque(state.order)
     while queue:

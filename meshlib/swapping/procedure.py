@@ -30,7 +30,7 @@ TRACE = np.dtype(
     ]
 )
 NORM_CODES = {1: codes.SUM, 2: codes.SQUARES, "max": codes.MAXIMUM}
-STEPS = 25  # of plain Python, from the first look at an edge to the last
+STEPS = 25  # steps of plain Python for an edge, from its first inspection to its last
 UNLIMITED = np.iinfo(np.int64).max // 2
 
 

@@ -52,7 +52,7 @@ class _Compiled:
 
 
 class _Plain:
-    """The same in Python, for costs that kernels do not know."""
+    """A walk in Python, for costs that kernels do not know."""
 
     def __init__(self, procedure):
         from . import plain

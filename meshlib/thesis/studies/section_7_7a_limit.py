@@ -19,7 +19,6 @@ SQUARE: Box = ((0.0, 0.0), (1.0, 1.0))
 # The Hessian of DD1 has full rank on its spike alone, which this box encloses.  Elsewhere DD1 is
 # linear but for two kinks, which differences would take for curvature.
 BOXES: dict[str, Box] = {"DD1": ((1.35 / 2.1, 0.25), (1.85 / 2.1, 0.75))}
-
 NODES = tuple(50 * 2**k for k in range(6))
 DIRECTED_NODES = NODES[1::2]
 SHOWN = 400  # nodes of the meshes that are shown
