@@ -135,11 +135,10 @@ class Procedure:
     def _plain(self, order, trace, schedule, watch):
         from . import plain
 
-        procedure = {"sweep": plain.swapped, "queue": plain.drained}[schedule]
-        elements, swaps, sweeps, tried = procedure(
-            self.mesh, self.values, self.criterion, self.norm, order, self.limits, self.tolerance
-        )
-        return Outcome(_in_rows(elements, self.mesh), swaps, sweeps, len(tried), np.array(tried, dtype=TRACE))
+        run = plain.Run(self, trace)
+        sweeps = {"sweep": plain.swept, "queue": plain.drained}[schedule](run, order.tolist(), watch)
+        elements = _in_rows(run.elements, self.mesh)
+        return Outcome(elements, run.swaps, sweeps, run.tried, np.array(run.trace or [], dtype=TRACE))
 
     @cached_property
     def _kept(self):
