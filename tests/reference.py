@@ -7,14 +7,18 @@ this is.
 """
 
 from collections import deque
+from dataclasses import replace
 
 import numpy as np
 
-from meshlib import Interpolant, Mesh
+from meshlib import Interpolant, Mesh, checks
 from meshlib.criteria import norms
 from meshlib.errors import not_a_cost
 from meshlib.mesh.quality import angles
+from meshlib.mesh.topology import canonical
+from meshlib.swapping.along_curve import AlongCurve
 from meshlib.swapping.procedure import TRACE, Outcome
+from meshlib.swapping.swapped import prepared
 
 FLAT = 1e-12
 
@@ -24,6 +28,28 @@ def run(procedure, order, schedule="sweep"):
     follow = {"sweep": swapped, "queue": drained}[schedule]
     elements, swaps, sweeps, tried = follow(state_of(procedure), order.tolist())
     return Outcome(elements, swaps, sweeps, len(tried), np.array(tried, dtype=TRACE))
+
+
+def result(
+    mesh,
+    values,
+    criterion,
+    *,
+    norm="L2",
+    order=None,
+    schedule="sweep",
+    min_angle=None,
+    min_area=None,
+    min_gain=None,
+):
+    """The outcome with the arguments of `meshlib.swapped`."""
+    procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
+    if order is not None or schedule == "sweep":
+        return run(procedure, checks.permutation(order, mesh.n_edges), schedule)
+    curve = AlongCurve(procedure)
+    done = run(curve._procedure, np.arange(mesh.n_edges), schedule)
+    elements = canonical(curve._curve.nodes[done.elements])
+    return replace(done, elements=elements, trace=curve._restored(done.trace))
 
 
 def state_of(procedure):
