@@ -46,7 +46,7 @@ FLATNESS = criteria.pointwise("own-flatness", "element", flatness)
 
 
 def in_python(criterion):
-    """The criterion without its compiled form, so that the procedure runs in Python on the vectorised cost."""
+    """The criterion without its compiled form: the procedure runs in Python on the vectorised cost."""
     return dataclasses.replace(criterion, code=-1)
 
 
