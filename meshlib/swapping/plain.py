@@ -18,12 +18,13 @@ sweep and evaluates every cost at every inspection.
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import count
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
 from .._typing import FloatArray, IntArray
 from ..criteria import norms
+from ..criteria.criterion import Criterion
 from ..kernels.backend import Plain
 from ..kernels.groups import Quad, State
 from ..kernels.lop import after, before, flip
@@ -34,10 +35,20 @@ from .local_costs import LOCAL, OnNodes, Place
 
 if TYPE_CHECKING:
     from ..support.progress import Watch
-    from .procedure import Procedure
 
 PLAIN = Plain()
 FLAT = 1e-12  # doubled area of a flat element, as a fraction of the two products whose difference it is
+
+
+class Given(Protocol):
+    """What a run is given: a `Procedure`."""
+
+    mesh: Mesh
+    values: FloatArray
+    criterion: Criterion
+    norm: Any
+    limits: Any
+    tolerance: tuple[float, float]
 
 
 class Tried(NamedTuple):
@@ -109,7 +120,7 @@ def _is_stopped(watch: "Watch | None", done: int) -> bool:
 class Run:
     """A mesh that is changed swap by swap, and a record of the swaps tried."""
 
-    def __init__(self, procedure: "Procedure", trace: bool = False) -> None:
+    def __init__(self, procedure: Given, trace: bool = False) -> None:
         mesh, criterion = procedure.mesh, procedure.criterion
         points = np.column_stack([mesh.nodes, procedure.values])
         self.nodes, self.state = mesh.nodes, _state(mesh, points)
