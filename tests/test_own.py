@@ -46,7 +46,7 @@ FLATNESS = criteria.pointwise("own-flatness", "element", flatness)
 
 
 def in_python(criterion):
-    """The same, run by the independent procedure on the vectorised cost."""
+    """The criterion without its compiled form: the procedure runs in Python on the vectorised cost."""
     return dataclasses.replace(criterion, code=-1)
 
 
@@ -70,7 +70,7 @@ def test_jnd_written_by_a_user_is_jnd(problem, norm, schedule):
     st.sampled_from(("sweep", "queue")),
     st.sampled_from((JUMP, FLATNESS)),
 )
-def test_kernels_and_the_independent_procedure_agree(problem, norm, schedule, criterion):
+def test_kernels_and_the_procedure_in_python_agree(problem, norm, schedule, criterion):
     mesh, values = problem
     assert_same(mesh, values, criterion, in_python(criterion), norm, schedule=schedule)
 

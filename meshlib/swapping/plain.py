@@ -1,180 +1,222 @@
-"""The local optimisation procedure once more: slow, obvious, for any criterion.
+r"""The local optimisation procedure for vectorised costs and for the lexicographic order.
 
-The mesh is a dictionary from directed edges to the node on their left.  Costs come
-from the vectorised definitions in `meshlib.criteria`, so that nothing but the
-algorithm is shared with the compiled form, whose oracle this is.
+It works on the half-edges of the kernels, with costs by NumPy and all else in Python.
+Around the edge a-b::
+
+            c                    c
+           / \                  /|\
+        n2/ t \n1            n2/ | \n1       t = (c, a, b) -> (c, a, d), half-edge h from a to b
+         a-----b     --->     a t|s b        s = (d, b, a) -> (d, b, c), half-edge j from b to a
+        n3\ s /n4            n3\ | /n4       n1 .. n4: the elements beyond
+           \ /                  \|/
+            d                    d
+
+Meshes and traces are exactly those of the definition, which inspects every edge in every
+sweep and evaluates every cost at every inspection.
 """
 
 from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import count
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
+from .._typing import FloatArray, IntArray
 from ..criteria import norms
-from ..errors import not_a_cost
-from ..interpolation.interpolant import Interpolant
+from ..criteria.criterion import Criterion
+from ..kernels.backend import Plain
+from ..kernels.groups import Quad, State
+from ..kernels.lop import after, before, flip
 from ..mesh.mesh import Mesh
 from ..mesh.quality import angles
+from ..mesh.topology import canonical, half_edges
+from .local_costs import LOCAL, OnNodes, Place
 
-FLAT = 1e-12
+if TYPE_CHECKING:
+    from ..support.progress import Watch
+
+PLAIN = Plain()
+FLAT = 1e-12  # doubled area of a flat element, as a fraction of the two products whose difference it is
 
 
-def swapped(mesh, *arguments):
-    """Elements after Algorithm 3.1.4, the numbers of swaps and sweeps, and every tried swap.
+class Given(Protocol):
+    """What a run is given: a `Procedure`."""
 
-    The arguments are values, criterion, norm, order, limits and tolerance.
+    mesh: Mesh
+    values: FloatArray
+    criterion: Criterion
+    norm: Any
+    limits: Any
+    tolerance: tuple[float, float]
+
+
+class Tried(NamedTuple):
+    """A swap that was tried, with the local cost before and after it."""
+
+    edge: int
+    a: int
+    b: int
+    c: int
+    d: int
+    accepted: bool
+    old: float
+    new: float
+
+
+# -- schedules ----------------------------------------------------------------------
+
+
+def swept(run: "Run", order: Sequence[int], watch: "Watch | None" = None) -> int:
+    """Inspect all edges again and again until none is swapped; returns the number of sweeps.
+
+    Around an edge where nothing has changed, the last inspection still holds and is
+    only recorded once more.
     """
-    state = State(mesh, *arguments)
-    sweep, changed = 0, True
-    while changed:
-        sweep += 1
-        changed = sum([state.inspect(e, sweep) for e in state.order])  # no short cut: all are inspected
-    return state.elements, state.swaps, sweep, state.tried
+    known: dict[int, Tried | None] = {}
+    for sweep in count(1):
+        swaps = run.swaps
+        for position, e in enumerate(order):
+            if e not in known:
+                known[e] = run.inspect(e)
+            found = known[e]
+            run.record(sweep, found)
+            if found is not None and found.accepted:
+                for f in run.outdated(e):
+                    known.pop(f, None)
+            if _is_stopped(watch, position):
+                return sweep - 1
+        if run.swaps == swaps:
+            break
+    return sweep
 
 
-def drained(mesh, *arguments):
-    """Swaps with a queue: all edges once, and again those whose local cost a swap may change."""
-    state = State(mesh, *arguments)
-    queue = deque(state.order)
-    while queue:
+def drained(run: "Run", order: Sequence[int], watch: "Watch | None" = None) -> int:
+    """Inspect each edge, and those near swaps again, first come, first served; returns 0 for the sweeps."""
+    queue, waits = deque(order), [True] * len(order)
+    while queue and not _is_stopped(watch, len(order) - len(queue)):
         e = queue.popleft()
-        if state.inspect(e, 0):
-            queue.extend(f for f in dict.fromkeys(state.near(e)) if f not in set(queue))
-    return state.elements, state.swaps, 0, state.tried
+        waits[e], found = False, run.inspect(e)
+        run.record(0, found)
+        if found is not None and found.accepted:
+            for f in run.near(e):
+                if not waits[f]:
+                    waits[f] = True
+                    queue.append(f)
+    return 0
 
 
-class State:
-    """A mesh as a dictionary, and what has been done to it."""
+def _is_stopped(watch: "Watch | None", done: int) -> bool:
+    """Tell a watch how many edges are done; whether it stops the run."""
+    if watch is None:
+        return False
+    watch.report(done)
+    return watch.stopped
 
-    def __init__(self, mesh, values, criterion, norm, order, limits, tolerance):
-        self.apex = {
-            (a, b): c for t in mesh.elements.tolist() for a, b, c in (t, t[1:] + t[:1], t[2:] + t[:2])
-        }
-        self.slots, self.order = [tuple(e) for e in mesh.edges.tolist()], order.tolist()
-        self.nodes, self.points = mesh.nodes, np.column_stack([mesh.nodes, values])
-        self.cost, self.norm, self.limits, self.tolerance = criterion.cost, norm, limits, tolerance
-        self.local_cost = {"edge": _edge_costs, "element": _element_costs, "node": _node_costs}[criterion.on]
-        self.swaps, self.tried = 0, []
+
+# -- the run ------------------------------------------------------------------------
+
+
+class Run:
+    """A mesh that is changed swap by swap, and a record of the swaps tried."""
+
+    def __init__(self, procedure: Given, trace: bool = False) -> None:
+        mesh, criterion = procedure.mesh, procedure.criterion
+        points = np.column_stack([mesh.nodes, procedure.values])
+        self.nodes, self.state = mesh.nodes, _state(mesh, points)
+        self.start = mesh.edges[:, 0].tolist()  # node a of each edge, seen from which d is to the right
+        self.local = LOCAL[criterion.on](criterion.cost, points, self.state)
+        self.norm, self.limits, self.tolerance = procedure.norm, procedure.limits, procedure.tolerance
+        self.swaps, self.tried = 0, 0
+        self.trace: list[tuple[Any, ...]] | None = [] if trace else None
 
     @property
-    def elements(self):
-        """The elements as they are."""
-        return _elements(self.apex)
+    def elements(self) -> IntArray:
+        """(T, 3) int32: the elements as they are, in lexicographic order, smallest node first."""
+        return canonical(np.array(self.state.element, dtype=np.int32).reshape(-1, 3))
 
-    def inspect(self, e, sweep):
-        """Swap an edge if it is not locally optimal; returns whether it was swapped."""
-        quad = _quadrilateral(self.apex, self.slots[e])
-        if quad is None or _is_refused(self.nodes, quad, self.limits):
-            return False
-        a, b, c, d = quad
-        old, new = (
-            norms.measure(_finite(h, a, b), self.norm, self.tolerance[1])
-            for h in self.local_cost(self.cost, self.points, self.apex, quad)
-        )
+    def inspect(self, e: int) -> Tried | None:
+        """Swap an edge if it is not locally optimal; None if no swap can be tried."""
+        place = self._place(e)
+        if place is None or self._is_refused(place.quad):
+            return None
+        old, new = (norms.measure(v, self.norm, self.tolerance[1]) for v in self.local.costs(place))
         accepted = norms.is_below(new, old, self.norm, *self.tolerance)
-        self.tried.append((sweep, e, a, b, c, d, accepted, *_deciding(old, new)))
         if accepted:
-            _swap(self.apex, quad)
-            self.slots[e], self.swaps = (c, d), self.swaps + 1
-        return accepted
+            self._swap(e, place)
+        return Tried(e, *place.quad, accepted, *_deciding(old, new))
 
-    def near(self, e):
-        """The edges around the new edge c-d: its sides, and the two others of each element beyond."""
-        number = {frozenset(ends): k for k, ends in enumerate(self.slots)}
-        c, d = sorted(self.slots[e])
-        a, b = self.apex[d, c], self.apex[c, d]
-        for p, q in ((d, b), (b, c), (c, a), (a, d)):
-            yield number[frozenset((p, q))]
-            r = self.apex.get((q, p))
-            if r is not None:
-                yield number[frozenset((p, r))]
-                yield number[frozenset((r, q))]
+    def record(self, sweep: int, found: Tried | None) -> None:
+        """Count what an inspection found, and write it down if a trace is wanted."""
+        if found is not None:
+            self.tried += 1
+            if self.trace is not None:
+                self.trace.append((sweep, *found))
+
+    def near(self, e: int) -> Iterator[int]:
+        """The edges around a new edge c-d: its sides, and the two others of each element beyond."""
+        (c, d, *_), h, j = self._inner(e)
+        slot, twin = self.state.slot, self.state.twin
+        if c > d:
+            h, j = j, h
+        for g in (after(h), before(h), after(j), before(j)):
+            yield slot[g]
+            beyond = twin[g]
+            if beyond >= 0:
+                yield slot[after(beyond)]
+                yield slot[before(beyond)]
+
+    def outdated(self, e: int) -> Iterable[int]:
+        """Edges whose local cost the swap to edge e may have changed, itself among them."""
+        quad = self._inner(e).quad
+        return self.local.outdated(quad) if isinstance(self.local, OnNodes) else (e, *self.near(e))
+
+    def _place(self, e: int) -> Place | None:
+        """An edge and what is around it; None on the boundary."""
+        return None if self.state.twin[self.state.half[e]] < 0 else self._inner(e)
+
+    def _inner(self, e: int) -> Place:
+        """An inner edge, from the end at which it starts, and what is around it."""
+        element, h = self.state.element, self.state.half[e]
+        j = self.state.twin[h]
+        if element[after(h)] != self.start[e]:
+            h, j = j, h
+        return Place((element[after(h)], element[before(h)], element[h], element[j]), h, j)
+
+    def _is_refused(self, quad: Quad) -> bool:
+        """Whether an element that the swap would create is flat, turned over, or below a limit."""
+        a, b, c, d = quad
+        if self._is_small(c, a, d) or self._is_small(d, b, c):
+            return True
+        angle = self.limits.angle
+        return angle > 0 and bool(angles(self.nodes[[[c, a, d], [d, b, c]]]).min() < angle)
+
+    def _is_small(self, p: int, q: int, r: int) -> bool:
+        """Whether the element p, q, r is flat, turned over, or too small."""
+        point = self.state.point
+        x, y = point[3 * p], point[3 * p + 1]
+        left = (point[3 * q] - x) * (point[3 * r + 1] - y)
+        right = (point[3 * q + 1] - y) * (point[3 * r] - x)
+        if left - right <= FLAT * (abs(left) + abs(right)):
+            return True
+        return (left - right) / 2 < self.limits.area
+
+    def _swap(self, e: int, place: Place) -> None:
+        self.local.swap(place)
+        flip(place.h, place.j, self.state)
+        self.start[e], self.swaps = place.quad[2], self.swaps + 1
 
 
-def _finite(costs, a, b):
-    if (np.isfinite(costs) & (np.asarray(costs) >= 0)).all():
-        return costs
-    raise not_a_cost(a, b)
+def _state(mesh: Mesh, points: FloatArray) -> State:
+    """Half-edges in lists; costs are kept elsewhere."""
+    twin, slot, half = half_edges(mesh.element_edges, mesh.n_edges, PLAIN)
+    element = PLAIN.flat(mesh.elements)
+    return State(PLAIN.readable(points), element, twin, slot, half, face=[], cost=[], settled=[])
 
 
-def _deciding(old, new):
+def _deciding(old: Any, new: Any) -> tuple[float, float]:
     """The costs that decide: the first that differ in the lexicographic order."""
     if not isinstance(old, tuple):
         return old, new
     differ = (pair for pair in zip(old, new, strict=False) if pair[0] != pair[1])
     return next(differ, (old[0], new[0]))
-
-
-def _quadrilateral(apex, edge):
-    """Nodes a, b, c, d: the edge a-b, c to its left, d to its right; None on the boundary."""
-    a, b = edge
-    c, d = apex.get((a, b)), apex.get((b, a))
-    return None if c is None or d is None else (a, b, c, d)
-
-
-def _swap(apex, quad):
-    """Replace the elements (c, a, b), (d, b, a) by (c, a, d), (d, b, c)."""
-    a, b, c, d = quad
-    del apex[a, b], apex[b, a]
-    for p, q, r in ((c, a, d), (d, b, c)):
-        apex[p, q], apex[q, r], apex[r, p] = r, p, q
-
-
-def _elements(apex):
-    rows = {from_smallest(a, b, c) for (a, b), c in apex.items()}
-    return np.array(sorted(rows), dtype=np.int32)
-
-
-def from_smallest(a, b, c):
-    """The element turned so that its smallest node number comes first."""
-    return min((a, b, c), (b, c, a), (c, a, b))
-
-
-def _is_refused(nodes, quad, limits):
-    a, b, c, d = quad
-    corners = nodes[[[c, a, d], [d, b, c]]]
-    u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    left, right = u[:, 0] * v[:, 1], u[:, 1] * v[:, 0]
-    if (left - right <= FLAT * (abs(left) + abs(right))).any():
-        return True
-    return ((left - right) / 2 < limits.area).any() or angles(corners).min() < limits.angle
-
-
-def _edge_costs(cost, points, apex, quad):
-    """Costs of the five edges around a-b, and of those around c-d instead."""
-    a, b, c, d = quad
-    sides = [(b, c), (c, a), (a, d), (d, b)]
-    beyond = [apex.get((q, p)) for p, q in sides]
-    old = [(a, b, c, d)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (a, b, b, a), beyond, strict=True)]
-    new = [(c, d, b, a)] + [(p, q, r, n) for (p, q), r, n in zip(sides, (d, d, c, c), beyond, strict=True)]
-    return tuple(
-        cost(*np.moveaxis(points[[_canonical(*s) for s in stencils if s[3] is not None]], 1, 0))
-        for stencils in (old, new)
-    )
-
-
-def _canonical(p, q, left, right):
-    """The edge p-q from its smaller node, so that its cost does not depend on history."""
-    return (p, q, left, right) if p < q else (q, p, right, left)
-
-
-def _element_costs(cost, points, apex, quad):
-    """Costs of the two elements at a-b, and of those at c-d instead."""
-    a, b, c, d = quad
-    return tuple(
-        cost(*np.moveaxis(points[[from_smallest(*t) for t in pair]], 1, 0))
-        for pair in ([(c, a, b), (d, b, a)], [(c, a, d), (d, b, c)])
-    )
-
-
-def _node_costs(cost, points, apex, quad):
-    """Costs of the four nodes, before and after, on the elements around them."""
-    after = dict(apex)
-    _swap(after, quad)
-    return tuple(_patch_costs(cost, points, mesh, quad) for mesh in (apex, after))
-
-
-def _patch_costs(cost, points, apex, quad):
-    elements = _elements({edge: c for edge, c in apex.items() if {*edge, c} & {*quad}})
-    used, numbers = np.unique(elements, return_inverse=True)
-    patch = Mesh._trusted(points[used, :2], numbers.reshape(-1, 3))
-    return cost(Interpolant(patch, points[used, 2]))[np.searchsorted(used, quad)]

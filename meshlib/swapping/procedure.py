@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from .._typing import Norm
 from ..criteria.norms import Tolerance, norm_of
 from ..criteria.registry import Criterion
 from ..errors import not_a_cost
@@ -64,7 +65,7 @@ class Procedure:
     mesh: Mesh
     values: np.ndarray
     criterion: Criterion
-    norm: object
+    norm: Norm
     limits: Limits
     tolerance: Tolerance
     once: bool = False
@@ -135,11 +136,10 @@ class Procedure:
     def _plain(self, order, trace, schedule, watch):
         from . import plain
 
-        procedure = {"sweep": plain.swapped, "queue": plain.drained}[schedule]
-        elements, swaps, sweeps, tried = procedure(
-            self.mesh, self.values, self.criterion, self.norm, order, self.limits, self.tolerance
-        )
-        return Outcome(_in_rows(elements, self.mesh), swaps, sweeps, len(tried), np.array(tried, dtype=TRACE))
+        run = plain.Run(self, trace)
+        sweeps = {"sweep": plain.swept, "queue": plain.drained}[schedule](run, order.tolist(), watch)
+        elements = _in_rows(run.elements, self.mesh)
+        return Outcome(elements, run.swaps, sweeps, run.tried, np.array(run.trace or [], dtype=TRACE))
 
     @cached_property
     def _kept(self):

@@ -55,33 +55,26 @@ class _Plain:
     """A walk in Python, for costs that kernels do not know."""
 
     def __init__(self, procedure):
-        from . import plain
+        from .plain import Run
 
-        order = np.arange(procedure.mesh.n_edges)
-        self._state = plain.State(
-            procedure.mesh,
-            procedure.values,
-            procedure.criterion,
-            procedure.norm,
-            order,
-            procedure.limits,
-            procedure.tolerance,
-        )
+        self._mesh, self._run = procedure.mesh, Run(procedure)
 
     def go(self, edges, rises):
         for e, rise in zip(edges.tolist(), rises.tolist(), strict=True):
-            self._state.tolerance = 0.0, -rise
-            self._state.inspect(e, 0)
+            self._inspect(e, rise)
 
     def differences(self):
-        before = len(self._state.tried)
-        self.go(np.array(self._state.order), np.full(len(self._state.order), -np.inf))
-        return np.array([row[-1] - row[-2] for row in self._state.tried[before:]])
+        found = (self._inspect(e, -np.inf) for e in range(self._mesh.n_edges))
+        return np.array([tried.new - tried.old for tried in found if tried is not None])
+
+    def _inspect(self, e, rise):
+        self._run.tolerance = 0.0, -rise
+        return self._run.inspect(e)
 
     @property
     def swaps(self):
-        return self._state.swaps
+        return self._run.swaps
 
     @property
     def mesh(self):
-        return Mesh._trusted(self._state.nodes, self._state.elements)
+        return Mesh._trusted(self._mesh.nodes, self._run.elements)
