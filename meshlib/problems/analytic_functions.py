@@ -31,7 +31,7 @@ class TestFunction:
 
     See Also
     --------
-    meshlib.problems.functions : all of them, by name.
+    meshlib.problems.mesh : start meshes by name.
 
     Examples
     --------
