@@ -45,7 +45,8 @@ def result(
     """The outcome with the arguments of `meshlib.swapped`."""
     procedure = prepared(mesh, values, criterion, norm, min_angle, min_area, min_gain)
     if order is not None or schedule == "sweep":
-        return run(procedure, checks.permutation(order, mesh.n_edges), schedule)
+        edges = np.arange(mesh.n_edges) if order is None else checks.permutation(order, mesh.n_edges)
+        return run(procedure, edges, schedule)
     curve = AlongCurve(procedure)
     done = run(curve._procedure, np.arange(mesh.n_edges), schedule)
     elements = canonical(curve._curve.nodes[done.elements])
