@@ -152,7 +152,7 @@ def combined(
     period = run.sweep(checks.whole(max_sweeps, 1, "max_sweeps"))
     green = mesh.green[halved(run.nodes, run.elements, mesh.green) & run.untouched(mesh)]
     result = Mesh._trusted(run.nodes, run.elements, green)
-    before, after = (of ** (1 / objective.norm) for of in (run.indicator, objective.of(result)))
+    before, after = (of ** (1 / objective.norm) for of in (run.indicator, run.reached))
     history = np.array(run.steps, dtype=STEP)
     return Combination(result, run.values, before, after, run.count, period, run.indicator, history)
 
@@ -251,6 +251,11 @@ class _Run:
             here[changed] = True
             changed = self.elements[here[self.elements].any(axis=1)]
         self.due[changed] = self.inside[changed]
+
+    @property
+    def reached(self) -> float:
+        """Indicator of the mesh as it is."""
+        return self.steps[-1][-1] if self.steps else self.indicator
 
     def untouched(self, mesh: Mesh) -> BoolArray:
         """For each green pair of the start mesh whether both elements are still in their rows."""

@@ -10,11 +10,11 @@ from .._typing import FloatArray, Function, Norm
 from ..criteria.criterion import Criterion
 from ..interpolation.interpolant import Interpolant
 from ..mesh.mesh import Mesh
-from ..mesh.quality import Quality, quality
+from ..mesh.quality import MEASURES, Quality, quality
 from ..swapping.procedure import TRACE
 
 GRID = 101  # points along each side of the grid on which the thesis measures errors
-MEASURES = {"maximum_angle": "Maximum angle", "skewness": "Skewness", "aspect_ratio": "Aspect ratio"}
+SHAPES = ("maximum_angle", "skewness", "aspect_ratio")  # measures of shape in the quality table
 UNITS = {"maximum_angle": " (°)"}
 
 
@@ -148,9 +148,10 @@ def numbers(stage: Stage) -> dict[str, float]:
     counts = zip(("Nodes", "Edges", "Elements", "Swaps"), (*stage.mesh.counts, stage.swaps), strict=True)
     found: dict[str, float] = dict(counts)
     found |= {"L2 error": stage.l2_error, "Largest error": stage.largest_error}
-    for name, title in MEASURES.items():
-        for kind, values in (("mean", stage.quality.mean), ("max", stage.quality.max)):
-            found[f"{title}{UNITS.get(name, '')}, {kind}"] = values[name]
+    mean, largest = stage.quality.mean, stage.quality.max
+    for name in SHAPES:
+        for kind, values in (("mean", mean), ("max", largest)):
+            found[f"{MEASURES[name]}{UNITS.get(name, '')}, {kind}"] = values[name]
     return found
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
@@ -37,6 +38,7 @@ class Record:
 
     mesh: Mesh
     values: FloatArray | None
+    _on_demand: ClassVar[tuple[str, ...]] = ()  # results that are computed when they are first asked for
 
     @cached_property
     def interpolant(self) -> Interpolant:
@@ -54,6 +56,12 @@ class Record:
                 "make Interpolant(record.mesh, u) with a function u",
             )
         return Interpolant(self.mesh, self.values)
+
+    def __getstate__(self) -> dict[str, object]:
+        """All results, computed if they have not been; what computes them need not be picklable."""
+        found = {name: getattr(self, name) for name in self._on_demand}
+        hidden = {f.name for f in fields(self) if f.name.startswith("_")}
+        return {name: value for name, value in vars(self).items() if name not in hidden} | found
 
     def __repr__(self) -> str:
         numbers = ((f.name, getattr(self, f.name)) for f in fields(self) if f.repr)

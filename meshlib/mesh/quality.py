@@ -64,7 +64,8 @@ class Quality:
     @property
     def worst(self) -> dict[str, float]:
         """Value of each measure at its worst element: the least where large is good, by name."""
-        return {name: (self.min if name in LARGE_IS_GOOD else self.max)[name] for name in MEASURES}
+        least, largest = self.min, self.max
+        return {name: (least if name in LARGE_IS_GOOD else largest)[name] for name in MEASURES}
 
     def __str__(self) -> str:
         lines = [f"{'Measure':<14} {'mean':>10} {'worst':>10}"]

@@ -40,6 +40,7 @@ class Refinement(Record):
     _start: Mesh = field(repr=False)
     _start_values: FloatArray = field(repr=False)
     _criterion: Criterion = field(repr=False)
+    _on_demand = ("cost_before", "cost_after")
 
     @cached_property
     def cost_before(self) -> float:
@@ -50,12 +51,6 @@ class Refinement(Record):
     def cost_after(self) -> float:
         """L2 norm of the cost vector of the refined mesh, which may be larger."""
         return float(np.linalg.norm(self._criterion.costs(self.mesh, self.values)))
-
-    def __getstate__(self) -> dict[str, object]:
-        """All results, computed if they have not been: a criterion may not be picklable."""
-        lazy = {name: getattr(self, name) for name in ("cost_before", "cost_after")}
-        hidden = ("_start", "_start_values", "_criterion")
-        return {k: v for k, v in self.__dict__.items() if k not in hidden} | lazy
 
 
 def refined(
@@ -129,13 +124,14 @@ def refined(
     """
     checks.choice(split, tuple(SPLITS), "split")
     mesh, criterion = checks.a_mesh(mesh), criteria.get(criterion)
-    chosen = marked_elements(mesh, values, criterion, fraction=fraction, mark=mark, ties=ties, order=order)
+    old = checks.nodal_values(mesh, values)
+    chosen = marked_elements(mesh, old, criterion, fraction=fraction, mark=mark, ties=ties, order=order)
     pieces, origin, corners, pairs = SPLITS[split](mesh, chosen)
     elements, parents, green = _by_parent(pieces, origin, pairs)
     nodes, whole = _with_means(mesh.nodes, corners), np.bincount(parents, minlength=mesh.n_elements) == 1
     _refuse_too_thin(nodes, elements, parents, ~whole)
     result = Mesh._trusted(nodes, elements, _kept_green(mesh, parents, whole) if green is None else green)
-    old, new = _values(result, mesh, values, corners)
+    new = checks.nodal_values(result, values) if callable(values) else _with_means(old, corners)
     return Refinement(result, new, chosen, parents, mesh, old, criterion)
 
 
@@ -171,9 +167,3 @@ def _refuse_too_thin(nodes: FloatArray, elements: IntArray, parents: IntArray, s
         raise InvalidMeshError(
             "degenerate", f"element {bad[0]} is too thin to be split; move one of its nodes", bad, bad.size
         )
-
-
-def _values(result: Mesh, mesh: Mesh, values: Values, corners: IntArray) -> tuple[FloatArray, FloatArray]:
-    """Nodal values of the start mesh and of the result."""
-    old = checks.nodal_values(mesh, values)
-    return old, checks.nodal_values(result, values) if callable(values) else _with_means(old, corners)

@@ -26,6 +26,7 @@ from .._typing import FloatArray, IntArray
 from ..criteria import norms
 from ..criteria.criterion import Criterion
 from ..kernels.backend import Plain
+from ..kernels.costs import turn
 from ..kernels.groups import Quad, State
 from ..kernels.lop import after, before, flip
 from ..mesh.mesh import Mesh
@@ -37,7 +38,6 @@ if TYPE_CHECKING:
     from ..support.progress import Watch
 
 PLAIN = Plain()
-FLAT = 1e-12  # doubled area of a flat element, as a fraction of the two products whose difference it is
 
 
 class Given(Protocol):
@@ -193,13 +193,8 @@ class Run:
 
     def _is_small(self, p: int, q: int, r: int) -> bool:
         """Whether the element p, q, r is flat, turned over, or too small."""
-        point = self.state.point
-        x, y = point[3 * p], point[3 * p + 1]
-        left = (point[3 * q] - x) * (point[3 * r + 1] - y)
-        right = (point[3 * q + 1] - y) * (point[3 * r] - x)
-        if left - right <= FLAT * (abs(left) + abs(right)):
-            return True
-        return (left - right) / 2 < self.limits.area
+        area = turn(self.state.point, (p, q, r))
+        return area <= 0 or area / 2 < self.limits.area
 
     def _swap(self, e: int, place: Place) -> None:
         self.local.swap(place)

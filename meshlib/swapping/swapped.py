@@ -46,6 +46,7 @@ class Swapping(Record):
     _rerun: Callable[[], NDArray[np.void]] = field(repr=False)
     _cost: Callable[[Mesh], float] = field(repr=False)
     _start: Mesh = field(repr=False)
+    _on_demand = ("cost_before", "cost_after", "history")
 
     @cached_property
     def cost_before(self) -> float:
@@ -68,11 +69,6 @@ class Swapping(Record):
         deterministic.
         """
         return self._rerun()[: self.tried]
-
-    def __getstate__(self) -> dict[str, object]:
-        """All results, computed if they have not been: a criterion may not be picklable."""
-        lazy = {name: getattr(self, name) for name in ("cost_before", "cost_after", "history")}
-        return {k: v for k, v in self.__dict__.items() if k not in ("_rerun", "_cost", "_start")} | lazy
 
 
 def swapped(
