@@ -36,14 +36,17 @@ lint: $(READY) ## Style, layout, spelling, types; the explorer's scripts where t
 	@if command -v npm >/dev/null; then npm ci --no-audit --no-fund --loglevel=error && npm run --silent lint; \
 	    else echo "No npm: the scripts of the explorer were not checked."; fi
 
-# First what plain Python alone can break: test_backends compares both backends by
-# itself, test_properties takes long, a browser runs no Python. Then everything, with a
-# list of what was skipped and of lines that no test reached; loadfile keeps a notebook on one kernel.
-test: $(READY) ## Unit tests (both backends), doctests, the built book, notebooks against their stored output
+# First what plain Python alone can break: test_backends compares both backends by itself,
+# test_plain asks for no backend, test_properties takes long, a browser runs no Python. This run
+# measures coverage, since it sees kernels and runs no notebooks, whose kernels would warn that
+# they measured nothing. Then everything, with a list of what was skipped; loadfile keeps a
+# notebook on one kernel.
+test: $(READY) ## Unit tests (both backends), coverage, doctests, the built book, notebooks against their stored output
 	MESHLIB_BACKEND=python $(BIN)/python -m pytest tests -q -n $(WORKERS) --dist loadfile \
-	    --ignore tests/test_backends.py --ignore tests/test_properties.py --ignore tests/browser
+	    --ignore tests/test_backends.py --ignore tests/test_plain.py --ignore tests/test_properties.py \
+	    --ignore tests/browser --cov --cov-report=term
 	$(BIN)/python -m pytest tests meshlib notebooks --doctest-modules -rs \
-	    --nbval --nbval-current-env -n $(WORKERS) --dist loadfile --cov --cov-report=term
+	    --nbval --nbval-current-env -n $(WORKERS) --dist loadfile
 
 # The core, and the extras that the library itself imports, in the oldest versions; the tools that
 # test are new. What needs the book, a browser or a cluster is left out.
